@@ -110,6 +110,10 @@ class Controller {
   /// Frequency of the period whose sample comes next, in steps of its word from the start.
   std::int32_t next_frequency() const { return vibration_.next_frequency(); }
 
+  /// What is known of the friction.
+  const FrictionLevel<Scalar>& friction_level() const { return level_; }
+  const typename PartsT::Relearning& relearning() const { return relearning_; }
+
   /// Answer to one carrier period, valid for the next.
   template <Numbers Known = Numbers::any>
   Command step(const Measurement& measurement) {
@@ -203,7 +207,7 @@ class Controller {
   /// Takes Fc and adapts the inverse map to it.
   void adopt_friction() {
     take_friction_force(friction_.friction_force(configured_friction_));
-    feedforward_.set_friction(level_);
+    relearning_.adapt(feedforward_, level_);
     map_.forget();
   }
 
@@ -241,21 +245,21 @@ class Controller {
       }
       vibration_.sense(measured, numeric::abs(measurement.sliding_velocity), backwards_,
                        feedforward_);
-      const Task task = next_task(along, speed);
+      const Task task = next_task({along, measured, speed, commanded_, requested_, followed_});
       if (task != Task::regulate) {
         regulator_.hold();
       }
       if (task == Task::regulate || task == Task::resume) {
         return regulate(measured, speed);
       }
-      return pause(task);
+      return pause(task, speed);
     }
   }
 
   /// What relearning asks for in this period. Without a drive there is nothing to pause.
-  Task next_task(Scalar along, Scalar speed) {
+  Task next_task(const FrictionReading<Scalar>& reading) {
     if (target_ < whole_ratio()) {
-      return relearning_.next(along, speed);
+      return relearning_.next(reading, feedforward_);
     }
     interrupt_relearning();
     return Task::regulate;
@@ -263,38 +267,31 @@ class Controller {
 
   void interrupt_relearning() {
     if (relearning_.interrupt()) {
-      feedforward_.set_friction(level_);
+      relearning_.adapt(feedforward_, level_);
     }
   }
 
   /// Answer in a pause of the drive.
-  Request pause(Task task) {
+  Request pause(Task task, Scalar speed) {
     if (task == Task::learn) {
       return learn_anew();
     }
     if (task == Task::adapt) {
-      feedforward_.set_friction(level_);
+      relearning_.adapt(feedforward_, level_);
       return {requested_, Limit::none};
     }
     commanded_ = whole_ratio();
-    return slewed({Scalar{}, Limit::none});
+    return slewed({relearning_.request(speed), Limit::none});
   }
 
-  /// Takes the friction force learnt in a pause. The request stands in this period, and in the
-  /// next, in which the map adapts. After a small change the integral gives up what it had
-  /// corrected for it. After a large change, and if the loop does not settle, the integral begins
-  /// anew.
+  /// Takes the friction force learnt while driving. The request stands in this period, and in the
+  /// next, in which the map adapts.
   Request learn_anew() {
     const Scalar before = level_.force();
     const Scalar target_force = numeric::twice(target_) * before;
-    take_friction_force(relearning_.force());
-    const bool small =
-        numeric::abs(relearning_.force() - before) < numeric::scale_by_power_of_two(before, -4);
-    if (small && watch_.limit_named() != Limit::not_settling) {
-      regulator_.shift(target_, level_.half_ratio(target_force));
-    } else {
-      regulator_.restart(target_);
-    }
+    take_friction_force(relearning_.force(before));
+    relearning_.correct(regulator_, {target_, commanded_, before, level_.half_ratio(target_force),
+                                     watch_.limit_named() != Limit::not_settling});
     watch_.forget_disagreement();
     return {requested_, Limit::none};
   }

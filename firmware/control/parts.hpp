@@ -24,11 +24,11 @@ template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class
 struct Parts {
   using Scalar = ScalarT;
   using Friction = FrictionT;        ///< TrustedFriction | LearntFriction
-  using Feedforward = FeedforwardT;  ///< CoulombFeedforward | DahlFeedforward
+  using Feedforward = FeedforwardT;  ///< CoulombFeedforward | (Tracked)DahlFeedforward
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator | ScalingRegulator
-  using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning
+  using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning | FrictionTracking
   using Vibration =
       VibrationT;        ///< FedForward | SensorlessVibration | DampedVibration | ResonantVibration
   using Force = ForceT;  ///< ForceSensor | NoForceSensor

@@ -9,12 +9,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene/bound.hpp"
+#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::configure {
 namespace {
+
+double root_of_squares(double a, double b) {
+  return numeric::sqrt(a * a + b * b);
+}
 
 /// 1/n, below 1: fixed point ends there.
 double mean_weight(double samples) {
@@ -104,6 +112,63 @@ double calibration_periods(const scene::Scene& scene, const NominalPlant& plant,
   return settling_periods(scene, plant, design, travels) + readings_for_mean(scene, plant) + 2.0;
 }
 
+/// calibration_s and friction may both say whether the friction force is calibrated.
+void require_no_contradiction(const scene::Scene& scene) {
+  const scene::Controller& controller = *scene.controller;
+  if (!controller.friction || !controller.calibration_s) {
+    return;
+  }
+  const bool calibrated = controller.friction == scene::FrictionSource::calibrated;
+  if (calibrated != (*controller.calibration_s > 0.0)) {
+    throw ConfigurationError(
+        "controller.calibration_s",
+        fmt::format("{:g} s contradicts controller.friction = \"{}\"; allowed: {}",
+                    *controller.calibration_s,
+                    scene::name_of(scene::friction_sources, *controller.friction),
+                    calibrated ? "above 0, or remove it" : "0, or remove it"));
+  }
+}
+
+void require_trackable(const scene::Scene& scene, const ControlDesign& design) {
+  const scene::Controller& controller = *scene.controller;
+  const auto refuse = [](const char* key, const std::string& message) {
+    throw ConfigurationError(key, message);
+  };
+  if (controller.vibration) {
+    refuse("controller.friction",
+           "\"tracked\" is for a drive that is fed forward; allowed with controller.vibration: "
+           "\"trusted\", \"calibrated\"");
+  }
+  if (controller.arithmetic == scene::Arithmetic::q15) {
+    refuse("controller.arithmetic",
+           "\"q15\" is too coarse for controller.friction = \"tracked\"; allowed: \"float32\", "
+           "\"q31\", \"float64\"");
+  }
+  if (design.map != scene::FrictionMap::dahl || !design.maps_friction) {
+    refuse(
+        "controller.friction",
+        "\"tracked\" needs the map of a dahl contact under a cosine, with a friction force below "
+        "2 % of the largest drive force; allowed: \"trusted\", \"calibrated\"");
+  }
+  if (controller.relearn_every_s) {
+    refuse("controller.relearn_every_s",
+           "not used with controller.friction = \"tracked\"; remove it");
+  }
+}
+
+/// Of ln g, g true over nominal vibration velocity: 2 %, and 5 % of the stiffness. The force factor
+/// of a transducer is known within 25 %.
+double gain_deviation(const scene::Scene& scene, const NominalPlant& plant) {
+  constexpr double drive = 0.02;
+  constexpr double stiffness = 0.05;
+  constexpr double force_factor = 0.25;
+  constexpr double most = 0.3;
+  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double of_stiffness =
+      stiffness * plant.stiffness_N_per_m / dynamic_stiffness_N_per_m(plant, omega);
+  return std::min(most, root_of_squares(scene.transducer ? force_factor : drive, of_stiffness));
+}
+
 }  // namespace
 
 void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
@@ -111,6 +176,7 @@ void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
   design.usual_calibration_s = calibration_periods(scene, plant, design, usual_presliding_travels) *
                                design.scales.carrier_period_s;
   const double calibration_s = scene.controller->calibration_s.value_or(0.0);
+  require_no_contradiction(scene);
   if (calibration_s <= 0.0) {
     return;
   }
@@ -174,6 +240,36 @@ void design_relearning(const scene::Scene& scene, const NominalPlant& plant,
               "vibration velocity of full drive; remove it");
   }
   design.relearn_every_periods = static_cast<std::uint32_t>(std::min(every, 4e9));
+}
+
+void design_tracking(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
+  if (scene.controller->friction != scene::FrictionSource::tracked) {
+    return;
+  }
+  require_trackable(scene, design);
+  constexpr double fewest_readings = 8.0;  // over which a mass that still rings is averaged
+  constexpr double map_error = 0.003;      // of the inverse map, in friction ratio
+  constexpr double certain_deviations = 2.5;
+  constexpr double surely_beyond = 3.0;  // deviations of the gain
+  constexpr double least_edge = 0.25;
+  const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
+  const double readings = std::max(fewest_readings, readings_for_mean(scene, plant));
+  design.tracks = true;
+  design.tracking_wait_periods =
+      whole_periods(latency_periods(scene) + design.changing_periods() + slewing +
+                    settling_periods(scene, plant, design, usual_presliding_travels));
+  design.tracking_average_periods = static_cast<std::uint8_t>(readings);
+  design.tracking_weight = mean_weight(readings);
+  const double noise_N = root_of_squares(scene.sensor.force_noise_N / numeric::sqrt(readings),
+                                         code_N(scene.sensor) / numeric::sqrt(12.0));
+  design.tracking_deviation = root_of_squares(map_error, noise_N / plant.friction_N);
+  design.tracking_certain =
+      std::max(scene.run.settling_band, certain_deviations * design.tracking_deviation);
+  design.gain_deviation = gain_deviation(scene, plant);
+  design.tracking_edge = std::max(least_edge, 1.0 - surely_beyond * design.gain_deviation);
+  // A friction that has jumped shows in full in a dip.
+  design.implausible_periods =
+      whole_periods(design.implausible_periods + design.tracking_wait_periods + readings + slewing);
 }
 
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design) {

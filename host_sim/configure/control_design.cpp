@@ -62,6 +62,7 @@ ControlDesign design_control(const scene::Scene& scene) {
   design_calibration(scene, plant, design);
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
+  design_tracking(scene, plant, design);
   return design;
 }
 

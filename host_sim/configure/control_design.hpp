@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/vibration/damped_design.hpp"
 #include "host_sim/configure/vibration/notch_design.hpp"
 #include "host_sim/configure/vibration/resonant_design.hpp"
@@ -74,6 +75,14 @@ struct ControlDesign {
   std::uint32_t calibration_total_periods = 0;
   double calibration_weight = 0.0;       ///< of a sample averaged
   double calibration_half_steady = 1.0;  ///< half the largest difference of samples at rest
+  bool tracks = false;                   ///< the friction, while driving
+  std::uint16_t tracking_wait_periods = 0;
+  std::uint8_t tracking_average_periods = 0;
+  double tracking_weight = 0.0;     ///< of a sample averaged
+  double tracking_deviation = 0.0;  ///< of a mean force, over Fc
+  double tracking_certain = 0.0;    ///< deviation of ln Fc up to which the drive does not dip
+  double tracking_edge = 0.0;       ///< drive of a dip, over the nominal one at which sliding stops
+  double gain_deviation = 0.0;      ///< of ln g, true over nominal vibration velocity, at the start
   bool relearns = false;
   std::uint32_t relearn_every_periods = 0;
   std::uint16_t relearn_quiet_periods = 0;
@@ -83,6 +92,11 @@ struct ControlDesign {
   std::uint8_t relearn_average_periods = 0;
   double relearn_weight = 0.0;  ///< of a sample averaged
 
+  /// The nominal one.
+  double contact_stiffness_N_per_m() const {
+    return contact_force * scales.force_N * numeric::two_pi /
+           (scales.velocity_m_per_s * scales.carrier_period_s);
+  }
   double speed_floor_m_per_s() const { return speed_floor * scales.velocity_m_per_s; }
   scene::VibrationMode vibration_mode() const {
     return static_cast<scene::VibrationMode>(vibration.index());

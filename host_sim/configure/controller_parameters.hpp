@@ -9,6 +9,7 @@
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/friction_tracking.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
@@ -30,6 +31,12 @@ typename control::LearntFriction<Scalar>::Parameters parameters(
   all.total_periods = design.calibration_total_periods;
   all.half_steady = scaled_within<Scalar>(design.calibration_half_steady);
   return all;
+}
+
+template <class Scalar>
+typename control::DahlFeedforward<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::TrackedDahlFeedforward<Scalar>> /*part*/) {
+  return {split<Scalar>(design.contact_force)};
 }
 
 template <class Scalar>
@@ -110,6 +117,27 @@ typename control::PeriodicRelearning<Scalar>::Parameters parameters(
   all.return_periods = design.relearn_return_periods;
   all.average_periods = design.relearn_average_periods;
   all.weight = scaled<numeric::Accumulator<Scalar>>(design.relearn_weight);
+  return all;
+}
+
+/// Deviations of ln Fc and of ln Kt at the start.
+inline constexpr double tracked_force_deviation = 0.3;
+inline constexpr double tracked_stiffness_deviation = 0.5;
+
+template <class Scalar>
+typename control::FrictionTracking<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::FrictionTracking<Scalar>> /*part*/) {
+  const auto variance = [](double deviation) { return scaled<Scalar>(deviation * deviation); };
+  typename control::FrictionTracking<Scalar>::Parameters all{};
+  all.wait_periods = design.tracking_wait_periods;
+  all.average_periods = design.tracking_average_periods;
+  all.weight = scaled<numeric::Accumulator<Scalar>>(design.tracking_weight);
+  all.deviation = scaled<Scalar>(design.tracking_deviation / 4.0);
+  all.certain = variance(design.tracking_certain);
+  all.edge = scaled_within<Scalar>(design.tracking_edge);
+  all.start.force = variance(tracked_force_deviation);
+  all.start.stiffness = variance(tracked_stiffness_deviation);
+  all.start.gain = variance(design.gain_deviation);
   return all;
 }
 

@@ -1,6 +1,7 @@
 /// The parts of a designed controller, chosen among at run time.
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 #include <variant>
 
@@ -9,6 +10,7 @@
 #include "firmware/control/force_sensing.hpp"
 #include "firmware/control/friction/coulomb_feedforward.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/friction_tracking.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/limits/current_limit.hpp"
@@ -28,18 +30,29 @@ namespace sonoglide::configure {
 template <class... Ts>
 using Choice = std::variant<Type<Ts>...>;
 
-/// The second alternative where `second`, else the first.
-template <class ChoiceOfTwo>
-ChoiceOfTwo choose(bool second) {
-  if (second) {
-    return std::variant_alternative_t<1, ChoiceOfTwo>{};
+/// The alternative of an index, or the last one.
+template <class Some, std::size_t First = 0>
+Some choose(std::size_t index) {
+  if constexpr (First + 1 < std::variant_size_v<Some>) {
+    if (index != First) {
+      return choose<Some, First + 1>(index);
+    }
   }
-  return std::variant_alternative_t<0, ChoiceOfTwo>{};
+  return std::variant_alternative_t<First, Some>{};
+}
+/// The second alternative where `second`, else the first.
+template <class Some>
+Some choose(bool second) {
+  return choose<Some>(std::size_t{second ? 1U : 0U});
 }
 
 /// Q15 is too coarse for it.
 template <class Scalar>
 inline constexpr bool can_observe_vibration = sizeof(Scalar) >= 4;
+
+/// Nor does it resolve the variances of friction that is learnt while driving.
+template <class Scalar>
+inline constexpr bool can_track_friction = sizeof(Scalar) >= 4;
 
 /// How the drive acts on the vibration.
 template <class Scalar>
@@ -113,21 +126,25 @@ struct RegulatorParts {
 template <class Scalar>
 struct ControllerParts {
   Choice<control::TrustedFriction<Scalar>, control::LearntFriction<Scalar>> friction;
-  Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>> feedforward;
+  Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>,
+         control::TrackedDahlFeedforward<Scalar>>
+      feedforward;
   Choice<control::NoSlewLimit<Scalar>, control::SlewLimit<Scalar>> slew;
   typename ShaperParts<Scalar>::Part shaper;
   typename RegulatorParts<Scalar>::Part regulator;
-  Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>> relearning;
+  Choice<control::NoRelearning<Scalar>, control::PeriodicRelearning<Scalar>,
+         control::FrictionTracking<Scalar>>
+      relearning;
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
-        feedforward(choose<decltype(feedforward)>(design.map == scene::FrictionMap::dahl)),
+        feedforward(choose<decltype(feedforward)>(feedforward_of(design))),
         slew(choose<decltype(slew)>(design.slew_limited)),
         shaper(ShaperParts<Scalar>::chosen(design)),
         regulator(RegulatorParts<Scalar>::chosen(design)),
-        relearning(choose<decltype(relearning)>(design.relearns)),
+        relearning(choose<decltype(relearning)>(relearning_of(design))),
         vibration(VibrationParts<Scalar>::chosen(design)),
         force(choose<decltype(force)>(!design.senses_force)) {}
 
@@ -153,6 +170,14 @@ struct ControllerParts {
           }
         },
         vibration);
+  }
+
+ private:
+  static std::size_t feedforward_of(const ControlDesign& design) {
+    return design.map == scene::FrictionMap::coulomb ? 0 : (design.tracks ? 2 : 1);
+  }
+  static std::size_t relearning_of(const ControlDesign& design) {
+    return design.tracks ? 2 : (design.relearns ? 1 : 0);
   }
 };
 

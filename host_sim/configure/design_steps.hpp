@@ -58,4 +58,10 @@ void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
 /// @throws ConfigurationError  controller.relearn_every_s cannot be kept
 void design_relearning(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design);
 
+/// Friction learnt while driving.
+/// @pre supervision and slew limit are designed
+/// @throws ConfigurationError  controller.friction = "tracked" where the controller has no map of the
+///         friction, or another key contradicts it
+void design_tracking(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design);
+
 }  // namespace sonoglide::configure

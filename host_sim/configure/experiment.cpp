@@ -2,17 +2,31 @@
 
 #include <utility>
 
+#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_steps.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 
 namespace sonoglide::configure {
 namespace {
 
-/// Without a vibration sensor the vibration is known no better than the friction, which is therefore
-/// learnt first.
+/// As controller.friction says. Without a vibration sensor the vibration is known no better than the
+/// friction, which is therefore learnt first.
 double default_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
-  return design.in_mode<SensorlessDesign>() != nullptr ? shortest_calibration_s(scene, design)
-                                                       : 0.0;
+  const std::optional<scene::FrictionSource>& source = scene.controller->friction;
+  if (source == scene::FrictionSource::calibrated) {
+    const double calibration_s = shortest_calibration_s(scene, design);
+    if (calibration_s <= 0.0) {
+      throw ConfigurationError(
+          "controller.friction",
+          "\"calibrated\", but half of the first target's time is too short for "
+          "it, or no sliding lasts as long; allowed: a controller.calibration_s "
+          "of your own, or \"trusted\"");
+    }
+    return calibration_s;
+  }
+  return !source && design.in_mode<SensorlessDesign>() != nullptr
+             ? shortest_calibration_s(scene, design)
+             : 0.0;
 }
 
 /// Values that are absent and follow from the design.

@@ -98,14 +98,17 @@ loop::Watch of_the_image(loop::Watch watch) {
   return watch;
 }
 
-loop::WorkstationRun run_on_workstation(const configure::Experiment& experiment,
-                                        std::uint64_t image_hash, const loop::Progress& progress) {
+/// The same loop with the controller in this process, which tells what it has learnt, too.
+void run_on_workstation(const configure::Experiment& experiment, const loop::Progress& progress,
+                        loop::RunResult& result) {
   loop::Watch watch;
   if (progress) {
     watch.progress = [&](double part) { progress(image_share + (1.0 - image_share) * part); };
   }
-  const std::uint64_t hash = loop::run(experiment, watch).control->trace_hash;
-  return {hash, hash == image_hash};
+  const loop::ControlRecord control = *loop::run(experiment, watch).control;
+  result.image->workstation = {control.trace_hash,
+                               control.trace_hash == result.control->trace_hash};
+  result.control->friction = control.friction;
 }
 
 }  // namespace
@@ -120,8 +123,7 @@ loop::RunResult run_image(const configure::Experiment& experiment,
       loop::run(experiment.plant, *experiment.design, controller, of_the_image(watch));
   result.image = controller.shut_down();
   add_cost(cost, *result.image);
-  result.image->workstation =
-      run_on_workstation(experiment, result.control->trace_hash, watch.progress);
+  run_on_workstation(experiment, watch.progress, result);
   return result;
 }
 

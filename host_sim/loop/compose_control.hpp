@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/friction_belief.hpp"
 
 namespace sonoglide::loop {
 namespace compose {
@@ -22,6 +24,7 @@ using configure::ControlDesign;
 template <class Parts>
 class InProcess : public ControlPort {
   using Controller = control::Controller<Parts>;
+  using Scalar = typename Parts::Scalar;
 
  public:
   using Sample = std::conditional_t<Controller::observed, hal::VibrationSample, hal::Sample>;
@@ -41,6 +44,13 @@ class InProcess : public ControlPort {
   std::vector<numeric::SignalRecord> signals() const override {
     return {ledger_.signals.begin(),
             ledger_.signals.begin() + static_cast<std::ptrdiff_t>(ledger_.size)};
+  }
+
+  std::optional<FrictionBelief> friction() const override {
+    if constexpr (std::is_same_v<typename Parts::Relearning, control::FrictionTracking<Scalar>>) {
+      return friction_belief(controller_.friction_level(), controller_.relearning());
+    }
+    return std::nullopt;
   }
 
   void save(SnapshotWriter& state) const override { state.put(controller_); }
@@ -77,6 +87,14 @@ class InProcessControl final : public InProcess<Parts> {
 
   Drive exchange(const Sample& sample) override { return this->answer(sample); }
 };
+
+/// The inverse map, but for friction that is learnt while driving.
+template <class Scalar>
+auto map_of(const ControlDesign& design) {
+  return configure::choose<
+      configure::Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>>>(
+      design.map == scene::FrictionMap::dahl);
+}
 
 /// Few scenes name a slew limit or relearning: they share compositions that have both, the one that
 /// a scene does not name being wide open. Every composition that is fed forward has a regulator, whose
@@ -119,7 +137,7 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
             ObservedParts<Scalar, control::TrustedFriction<Scalar>, Feedforward,
                           control::NoFeedback<Scalar>, Vibration, control::NoForceSensor>>>(design);
       },
-      parts.friction, parts.feedforward);
+      parts.friction, map_of<Scalar>(design));
 }
 
 /// Relearning, and the lead of a reading, are wide open where a scene does not name them.
@@ -137,7 +155,23 @@ std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
                            control::PeriodicRelearning<Scalar>, Vibration>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
-      parts.friction, parts.feedforward);
+      parts.friction, map_of<Scalar>(design));
+}
+
+/// Friction that is learnt while driving; the slew limit is wide open where a scene does not name it.
+template <class Scalar>
+std::unique_ptr<ControlPort> make_tracking_control(const ControlDesign& design) {
+  return std::visit(
+      [&](auto shaper) -> std::unique_ptr<ControlPort> {
+        using Parts =
+            control::Parts<Scalar, control::TrustedFriction<Scalar>,
+                           control::TrackedDahlFeedforward<Scalar>, control::SlewLimit<Scalar>,
+                           typename decltype(shaper)::type,
+                           control::IntegralRegulator<Scalar, configure::max_reference_delay>,
+                           control::FrictionTracking<Scalar>>;
+        return std::make_unique<InProcessControl<Parts>>(design);
+      },
+      configure::ControllerParts<Scalar>(design).shaper);
 }
 
 }  // namespace compose
@@ -162,6 +196,11 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
                                       control::ScalingRegulator>(design);
     }
   }
+  if constexpr (configure::can_track_friction<Scalar>) {
+    if (design.tracks) {
+      return make_tracking_control<Scalar>(design);
+    }
+  }
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
       [&](auto friction, auto feedforward, auto shaper,
@@ -175,7 +214,7 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
                            typename Chosen::Relearning>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
-      parts.friction, parts.feedforward, parts.shaper,
+      parts.friction, map_of<Scalar>(design), parts.shaper,
       configure::choose<ExtrasChoice<Scalar>>(design.slew_limited || design.relearns));
 }
 

@@ -14,6 +14,10 @@ hal::ResonantDrive ControlPort::exchange(const hal::VibrationSample& /*sample*/)
   throw std::logic_error("a controller that observes no vibration has no use for a sample of it");
 }
 
+std::optional<FrictionBelief> ControlPort::friction() const {
+  return std::nullopt;
+}
+
 void ControlPort::save(SnapshotWriter& /*state*/) const {
   throw std::logic_error("the state of this controller is out of reach");
 }

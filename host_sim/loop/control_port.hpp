@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/numeric/signal_ledger.hpp"
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/loop/friction_belief.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -24,6 +26,8 @@ class ControlPort {
   virtual hal::ResonantDrive exchange(const hal::VibrationSample& sample);
   /// What the fixed-point signals did so far; empty for floating point.
   virtual std::vector<numeric::SignalRecord> signals() const = 0;
+  /// Of friction that is learnt while driving; absent of any other, and of an image.
+  virtual std::optional<FrictionBelief> friction() const;
   /// The state, but for signals(), to go on from in a port that was made for the same design.
   /// @throws std::logic_error  the controller is out of reach
   virtual void save(SnapshotWriter& state) const;

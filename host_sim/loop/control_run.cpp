@@ -130,6 +130,12 @@ void ControlRun::restore(SnapshotReader& state) {
 void ControlRun::finish() {
   record_.trace_hash = hash_.value();
   record_.signals = port_.signals();
+  if (const std::optional<FrictionBelief> own = port_.friction()) {
+    const configure::ControlDesign& design = record_.design;
+    record_.friction = {own->friction_force.scaled(design.scales.force_N),
+                        own->contact_stiffness.scaled(design.contact_stiffness_N_per_m()),
+                        own->gain};
+  }
 }
 
 /// The friction force of the last undriven period of a calibration, or of a pause.

@@ -10,6 +10,7 @@
 #include "firmware/numeric/signal_ledger.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/electrical.hpp"
+#include "host_sim/loop/friction_belief.hpp"
 #include "host_sim/loop/plant/energy.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/steady_orbit.hpp"
@@ -58,6 +59,7 @@ struct ControlRecord {
   std::uint64_t saturated_commands = 0;  ///< at the actuator's limit, a voltage's or a current's
   std::vector<FaultEvent> faults;        ///< a fault lasts: few
   std::vector<numeric::SignalRecord> signals;  ///< fixed point only
+  std::optional<FrictionBelief> friction;      ///< at the end, in SI; learnt while driving only
 };
 
 /// As large after an hour as after a millisecond; what has a course is for a Watch.

@@ -96,6 +96,16 @@ ordered_json pauses(const report::PauseMetrics& metrics) {
           {"ratio_cost", metrics.ratio_cost}};
 }
 
+ordered_json believed(const loop::Believed& figure) {
+  return {{"value", figure.value}, {"low_95", figure.low_95}, {"high_95", figure.high_95}};
+}
+
+ordered_json friction(const loop::FrictionBelief& belief) {
+  return {{"Fc_N", believed(belief.friction_force)},
+          {"contact_stiffness_N_per_m", believed(belief.contact_stiffness)},
+          {"gain", believed(belief.gain)}};
+}
+
 ordered_json limited_periods(const Course& course) {
   ordered_json json = ordered_json::object();
   for (std::size_t i = 1; i < control::limit_count; ++i) {
@@ -160,8 +170,11 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
   if (scene.sensor.vibration) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
-  if (design.relearns) {
+  if (design.relearns || design.tracks) {
     json["relearning"] = pauses(findings.pauses());
+  }
+  if (record.friction) {
+    json["friction"] = friction(*record.friction);
   }
   return json;
 }
@@ -320,6 +333,10 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
   }
   if (result.control->design.relearns) {
     text += pause_line(findings.pauses());
+  }
+  if (result.control->friction) {
+    text += fmt::format("{}; the drive dipped {} times for it\n",
+                        friction_text(*result.control->friction), findings.pauses().pauses);
   }
   for (const loop::FaultEvent& event : result.control->faults) {
     text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",

@@ -129,6 +129,15 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
         "pauses raise the mean friction ratio by {:.3g}; the table of target steps leaves them out.",
         pauses.pauses, percent(pauses.time_fraction), pauses.ratio_cost));
   }
+  if (result.control->friction) {
+    const report::PauseMetrics dips = findings.pauses();
+    std::string text = friction_text(*result.control->friction);
+    text.front() = 'F';
+    all.push_back(
+        fmt::format("{}. The drive dipped {} times to measure the friction force, {} of the "
+                    "time; the table of target steps leaves these periods out.",
+                    text, dips.pauses, percent(dips.time_fraction)));
+  }
   if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
                               findings.close_ups().size()));

@@ -40,6 +40,16 @@ std::string settling_name(control::Settling settling) {
   return control::name(settling);
 }
 
+std::string friction_text(const loop::FrictionBelief& belief) {
+  const auto figure = [](const loop::Believed& each) {
+    return fmt::format("{:.4g} ({:.4g} to {:.4g})", each.value, each.low_95, each.high_95);
+  };
+  return fmt::format(
+      "friction learnt while driving, with 95 % intervals: Fc {} N, contact stiffness {} N/m, vibration "
+      "{} times the nominal one",
+      figure(belief.friction_force), figure(belief.contact_stiffness), figure(belief.gain));
+}
+
 std::string limit_text(const report::StepMetrics& step) {
   std::string text = limit_name(step.limit);
   if (std::isnan(step.steady_error)) {

@@ -60,6 +60,12 @@ inline constexpr std::array<Named<Shaping>, 3> shapings = {{
     {"none", Shaping::none},
 }};
 
+inline constexpr std::array<Named<FrictionSource>, 3> friction_sources = {{
+    {"trusted", FrictionSource::trusted},
+    {"calibrated", FrictionSource::calibrated},
+    {"tracked", FrictionSource::tracked},
+}};
+
 inline constexpr std::array<Named<VibrationControl>, 2> vibration_controls = {{
     {"resonant", VibrationControl::resonant},
     {"damped", VibrationControl::damped},

@@ -179,12 +179,17 @@ struct FrequencyRange {
   double highest_Hz = 0.0;
 };
 
+/// Where the controller has the friction force from. trusted: from the scene. calibrated: measured
+/// before the drive is first used. tracked: learnt while driving.
+enum class FrictionSource { trusted, calibrated, tracked };
+
 struct Controller {
   Arithmetic arithmetic = Arithmetic::float64;
   std::optional<VibrationControl> vibration;         ///< absent: fed forward, without observing it
   std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
   std::vector<TargetStep> target_friction_ratio;
-  std::optional<double> calibration_s;  ///< absent: what suits the design, or 0
+  std::optional<FrictionSource> friction;  ///< absent: as calibration_s says
+  std::optional<double> calibration_s;     ///< absent: what suits the design, or 0
   /// Absent: of a drive whose amplitude passes linearly, what suits the design.
   std::optional<Shaping> shaping = Shaping::notch;
   std::optional<double> shaping_range;        ///< robust: of the natural frequency, relative

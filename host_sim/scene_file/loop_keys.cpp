@@ -150,9 +150,17 @@ std::vector<Key> controller_keys() {
       {"target_friction_ratio", of_controller<&Controller::target_friction_ratio>,
        Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},
+      {"friction",
+       choice<scene::friction_sources, &scene::Scene::controller, &Controller::friction>(),
+       Word{words_of(scene::friction_sources)},
+       Rule{"calibrated with a calibration_s above 0, else trusted"},
+       "where the controller has the friction force from. trusted: from the scene. calibrated: "
+       "measured in calibration_s. tracked: learnt while driving, with the contact stiffness and the "
+       "gain of the vibration; for law dahl, a cosine and a drive that is fed forward",
+       uses::force_sensor},
       {"calibration_s", of_controller<&Controller::calibration_s>, Number{time_range},
        Rule{
-           "0; with damped and without sensor.vibration the settling time of the sensor and of a "
+           "0; with friction = \"calibrated\", or with damped and without sensor.vibration, the settling time of the sensor and of a "
            "contact half as stiff as nominal, at most half of the first target's time, and 0 where "
            "that is too short"},
        "time with the drive off in which the friction force is calibrated; 0: the controller takes "

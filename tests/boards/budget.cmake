@@ -59,6 +59,7 @@ sonoglide_feature_image(five_taps "[controller]" "[controller]\nshaping = \"robu
 sonoglide_feature_image(no_feedback ${on_a_multiple})
 sonoglide_feature_image(no_calibration "calibration_s = 0.5e-3" "calibration_s = 0.0")
 sonoglide_feature_image(relearning "[controller]" "[controller]\nrelearn_every_s = 10e-3")
+sonoglide_feature_image(tracking "calibration_s = 0.5e-3" "friction = \"tracked\"")
 sonoglide_feature_image(no_slew_limit "max_force_slew_N_per_s = 10e6" "")
 sonoglide_feature_image(felt_mode "max_force_slew_N_per_s = 10e6" ""
   "[controller]" "[controller]\nvibration = \"damped\"")

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/interface/part_name.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -18,9 +19,44 @@ enum class Task : std::uint8_t {
   adapt,     ///< the request stands, for what else follows from force()
 };
 
+/// What is learnt from: a sample, and the command that stood before it.
+template <class Scalar>
+struct FrictionReading {
+  Scalar force;      ///< measured, along the sliding
+  Scalar measured;   ///< friction ratio on base 2
+  Scalar speed;      ///< of the sliding, base: peak vibration velocity at full drive
+  Scalar commanded;  ///< friction ratio on base 2
+  Scalar requested;  ///< amplitude, or vibration velocity
+  bool followed;     ///< the drive could follow the command
+};
+
+/// What changes with a friction force that is new.
+template <class Scalar>
+struct FrictionChange {
+  Scalar target;     ///< friction ratio on base 2
+  Scalar commanded;  ///< likewise
+  Scalar before;     ///< Fc
+  Scalar reading;    ///< the friction ratio that the target was, in terms of the new Fc
+  bool settling;     ///< false: the loop does not settle
+};
+
+/// What parts share that learn the friction while the controller runs.
+template <class Scalar>
+class RelearningPart {
+ public:
+  /// Of the drive in a pause.
+  static constexpr Scalar request(Scalar /*speed*/) { return {}; }
+
+  /// Sets a feedforward to what is known of the friction.
+  template <class Feedforward>
+  static void adapt(Feedforward& feedforward, const FrictionLevel<Scalar>& level) {
+    feedforward.set_friction(level);
+  }
+};
+
 /// The friction force is not learnt again while the drive is on.
 template <class Scalar>
-class NoRelearning {
+class NoRelearning : public RelearningPart<Scalar> {
  public:
   static constexpr PartName part_name{"friction/periodic_relearning", "NoRelearning"};
   struct Parameters {};
@@ -30,8 +66,13 @@ class NoRelearning {
   static constexpr void restart() {}
   static constexpr bool interrupt() { return false; }
   static constexpr bool pausing() { return false; }
-  static constexpr Task next(Scalar /*force*/, Scalar /*speed*/) { return Task::regulate; }
-  static constexpr Scalar force() { return {}; }
+  template <class Feedforward>
+  static constexpr Task next(const FrictionReading<Scalar>&, const Feedforward&) {
+    return Task::regulate;
+  }
+  static constexpr Scalar force(Scalar before) { return before; }
+  template <class Regulator>
+  static constexpr void correct(Regulator&, const FrictionChange<Scalar>&) {}
 };
 
 /// At regular intervals the request is zero, through the shaper, for as many periods as the contact
@@ -44,7 +85,7 @@ class NoRelearning {
 ///   drive disturbed  4M + n + a, longer where the friction force has changed
 ///   learnt           R periods after the last request of zero; the request then stands for two
 template <class Scalar>
-class PeriodicRelearning {
+class PeriodicRelearning : public RelearningPart<Scalar> {
  public:
   static constexpr PartName part_name{"friction/periodic_relearning", "PeriodicRelearning"};
   struct Parameters {
@@ -89,9 +130,8 @@ class PeriodicRelearning {
   bool pausing() const { return phase_ != Phase::idle; }
 
   /// One call for each period in which the drive is to hold a ratio.
-  /// @param force  measured, along the sliding
-  /// @param speed  of the sliding, base: peak vibration velocity at full drive
-  Task next(Scalar force, Scalar speed) {
+  template <class Feedforward>
+  Task next(const FrictionReading<Scalar>& reading, const Feedforward& /*feedforward*/) {
     since_begin_ += since_begin_ + 1 < never ? 1U : 0U;
     if (phase_ == Phase::idle && since_begin_ >= parameters_.every_periods) {
       begin();
@@ -103,16 +143,29 @@ class PeriodicRelearning {
         wait();
         return Task::pause;
       case Phase::sliding:
-        slide(speed);
+        slide(reading.speed);
         return Task::pause;
       case Phase::slid:
         break;
     }
-    return conclude(force);
+    return conclude(reading.force);
   }
 
   /// Mean of what was learnt in the last pause.
-  Scalar force() const { return numeric::rounded<Scalar>(mean_); }
+  Scalar force(Scalar /*before*/) const { return numeric::rounded<Scalar>(mean_); }
+
+  /// After a small change the integral gives up what it had corrected for it. After a large change,
+  /// and if the loop does not settle, the integral begins anew.
+  template <class Regulator>
+  void correct(Regulator& regulator, const FrictionChange<Scalar>& change) const {
+    const bool small = numeric::abs(force(change.before) - change.before) <
+                       numeric::scale_by_power_of_two(change.before, -4);
+    if (small && change.settling) {
+      regulator.shift(change.target, change.reading);
+    } else {
+      regulator.restart(change.target);
+    }
+  }
 
  private:
   enum class Phase : std::uint8_t { idle, quiet, sliding, slid };

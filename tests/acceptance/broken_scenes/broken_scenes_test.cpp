@@ -64,6 +64,28 @@ const std::vector<BrokenScene> broken_scenes = {
      "arithmetic = \"float32\"\ncalibration_s = 20e-6",
      "17:17: controller.calibration_s: is too short for contact and sensor to settle; allowed: 0 "
      "(no calibration), or at least 0.000134 s"},
+    {"tracked_and_calibrated", closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"float32\"\nfriction = \"tracked\"\ncalibration_s = 0.5e-3",
+     "18:17: controller.calibration_s: 0.0005 s contradicts controller.friction = \"tracked\"; "
+     "allowed: 0, or remove it"},
+    {"calibrated_for_no_time", closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"float32\"\nfriction = \"calibrated\"\ncalibration_s = 0",
+     "18:17: controller.calibration_s: 0 s contradicts controller.friction = \"calibrated\"; allowed: "
+     "above 0, or remove it"},
+    {"tracked_and_relearnt", closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"float32\"\nfriction = \"tracked\"\nrelearn_every_s = 0.1",
+     "18:19: controller.relearn_every_s: not used with controller.friction = \"tracked\"; remove it"},
+    {"tracked_in_q15", closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"q15\"\nfriction = \"tracked\"",
+     "16:14: controller.arithmetic: \"q15\" is too coarse for controller.friction = \"tracked\"; "
+     "allowed: \"float32\", \"q31\", \"float64\""},
+    {"tracked_without_a_dahl_map", coulomb_closed_loop, "arithmetic = \"float32\"",
+     "arithmetic = \"float32\"\nfriction = \"tracked\"",
+     "16:12: controller.friction: \"tracked\" needs the map of a dahl contact under a cosine, with a "
+     "friction force below 2 % of the largest drive force; allowed: \"trusted\", \"calibrated\""},
+    {"tracked_and_damped", damped_loop, "\"damped\"", "\"damped\"\nfriction = \"tracked\"",
+     "19:12: controller.friction: \"tracked\" is for a drive that is fed forward; allowed with "
+     "controller.vibration: \"trusted\", \"calibrated\""},
     // Names
     {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
      "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},

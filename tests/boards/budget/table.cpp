@@ -99,6 +99,8 @@ const std::vector<Feature>& features() {
        "LearntFriction"},
       {"relearning", "relearning", "every_part", "friction/periodic_relearning.hpp",
        "PeriodicRelearning"},
+      {"friction tracking", "tracking", "no_calibration", "friction/friction_tracking.hpp",
+       "FrictionTracking"},
       {"felt mode", "felt_mode", "no_slew_limit", "vibration/sensorless_vibration.hpp",
        "SensorlessVibration"},
       {"slew limit", "every_part", "no_slew_limit", "limits/slew_limit.hpp", "control::SlewLimit"},

@@ -15,14 +15,16 @@ namespace sonoglide::control {
 struct Contact {
   double friction_force = 0.5;
   double contact_force = 1.0108;
+  double gain = 1.0;  ///< true over nominal vibration
 
   /// Friction ratio at a drive amplitude and a sliding speed > 0.
   double ratio(double amplitude, double speed) const {
     if (amplitude <= 0.0) {
       return 1.0;
     }
-    return friction::dahl_friction_ratio(speed / amplitude,
-                                         contact_force * amplitude / friction_force);
+    const double vibration = gain * amplitude;
+    return friction::dahl_friction_ratio(speed / vibration,
+                                         contact_force * vibration / friction_force);
   }
 };
 

@@ -9,6 +9,7 @@
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/friction/coulomb_feedforward.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/friction_tracking.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/limits/drive_limit.hpp"
@@ -41,6 +42,11 @@ template <class S>
 using RelearningParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
                               NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>,
                               PeriodicRelearning<S>>;
+/// What learns friction, contact and gain while driving.
+template <class S>
+using TrackingParts = Parts<S, TrustedFriction<S>, TrackedDahlFeedforward<S>, NoSlewLimit<S>,
+                            NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>,
+                            FrictionTracking<S>>;
 template <class S>
 using SlewingParts = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, SlewLimit<S>, NoShaping<S>,
                            IntegralRegulator<S, longest_delay>>;
@@ -82,6 +88,11 @@ struct Design {
   std::uint32_t relearn_every_periods = 1000;
   std::uint16_t relearn_reading_periods = 2;
   double relearn_travel = 0.0075;  ///< half a carrier period at full drive's velocity
+  std::uint16_t tracking_wait_periods = 12;
+  std::uint8_t tracking_average_periods = 8;
+  double tracking_deviation = 0.003;
+  double tracking_certain = 0.01;
+  double gain_deviation = 0.02;
   double drive_limit = 1.0;
 };
 
@@ -106,6 +117,20 @@ void fill(const Design& design, typename PeriodicRelearning<S>::Parameters& para
                 static_cast<std::uint16_t>(shaping + 2),
                 1,
                 numeric::from_real<numeric::Accumulator<S>>(numeric::from_code<double>(INT32_MAX))};
+}
+
+template <class S>
+void fill(const Design& design, typename FrictionTracking<S>::Parameters& parameters) {
+  const auto variance = [](double deviation) {
+    return numeric::from_real<S>(deviation * deviation);
+  };
+  parameters = {design.tracking_wait_periods,
+                design.tracking_average_periods,
+                numeric::from_real<numeric::Accumulator<S>>(1.0 / design.tracking_average_periods),
+                numeric::from_real<S>(design.tracking_deviation / 4.0),
+                variance(design.tracking_certain),
+                numeric::from_real<S>(1.0 - 3.0 * design.gain_deviation),
+                {variance(0.3), variance(0.5), variance(design.gain_deviation)}};
 }
 
 template <class S>

@@ -149,6 +149,8 @@ TEST(ReaderTest, DefaultOfCalibrationWhereTheFrictionShowsTheVibration) {
   EXPECT_GT(by_default_s, 0.0);
   EXPECT_EQ(calibration_s(sensorless(steady, "")), by_default_s);
   EXPECT_EQ(calibration_s(sensorless(steady, "calibration_s = 0\n")), 0.0);
+  EXPECT_EQ(calibration_s(sensorless(steady, "friction = \"trusted\"\n")), 0.0);
+  EXPECT_EQ(calibration_s(sensorless(steady, "friction = \"calibrated\"\n")), by_default_s);
   // A sliding that begins at rest goes on for too short a time within half of that of the target, or
   // for long enough.
   const auto from_rest = [](const char* begins_s) {

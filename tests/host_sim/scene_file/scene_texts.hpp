@@ -281,6 +281,7 @@ settling_band = 0.02
 [controller]
 arithmetic = "float32"
 target_friction_ratio = [[0.0, 0.4], [2e-3, 0.6]]
+friction = "calibrated"
 calibration_s = 0.5e-3
 relearn_every_s = 0.1
 shaping = "robust"

@@ -1,0 +1,112 @@
+/// Friction that is learnt while driving: lies of the scene, jumps and drifts of the friction.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/acceptance/closed_loop/runs/closed_loop.hpp"
+#include "tests/common/csv/csv.hpp"
+
+namespace sonoglide::acceptance::tracked_friction_test {
+namespace {
+
+Settings tracked(Settings more) {
+  more.emplace_back("controller.friction=tracked");
+  more.emplace_back("sensor.force_full_scale_N=0.08");
+  return more;
+}
+
+bool holds(const nlohmann::json& figure, double truth) {
+  return figure.at("low_95") <= truth && truth <= figure.at("high_95");
+}
+
+/// Part of the carrier periods from a time on whose ratio is within 0.02 of 0.5.
+double part_within(Settings settings, double from_s) {
+  const ScratchFolder folder;
+  settings.emplace_back("controller.target_friction_ratio=[[0,0.4],[2e-3,0.6],[4e-3,0.5]]");
+  settings.emplace_back("run.record=[\"friction_force_N\"]");
+  settings.emplace_back("run.record_interval_s=1e-4");
+  expect_no_fault(run_scene(folder, "target_step", settings));
+  const csv::Table table(folder.read("out/periods.csv"));
+  int within = 0;
+  int seen = 0;
+  for (const csv::Row& row : table.rows()) {
+    if (from_s <= row.number("time_s")) {
+      within += std::abs(row.number("friction_ratio") - 0.5) < 0.02 ? 1 : 0;
+      ++seen;
+    }
+  }
+  return static_cast<double>(within) / seen;
+}
+
+TEST(TrackedFriction, FindsWhatTheSceneHasWrong) {
+  for (const std::string& arithmetic : arithmetics) {
+    for (const char* coefficient : {"1.3", "0.7"}) {
+      for (const char* stiffness : {"1.5", "0.5"}) {
+        const nlohmann::json summary = summary_of(
+            "target_step", tracked({"controller.arithmetic=" + arithmetic, "run.record=[]",
+                                    "run.settling_band=0.02",
+                                    std::string("model_error.coefficient=") + coefficient,
+                                    std::string("model_error.contact_stiffness=") + stiffness}));
+        const std::string loop = arithmetic + " " + coefficient + " " + stiffness;
+        expect_no_fault(summary);
+        for (const Step& step : steps_of(summary)) {
+          EXPECT_LE(step.settling_time_s.value_or(1.0), 1.2e-3) << loop;
+          EXPECT_NEAR(step.steady_error, 0.0, 0.005) << loop;
+          EXPECT_EQ(step.limit, "none") << loop;
+        }
+        const nlohmann::json& friction = summary.at("control").at("friction");
+        EXPECT_TRUE(holds(friction.at("Fc_N"), 0.01962)) << loop << friction;
+        EXPECT_TRUE(holds(friction.at("contact_stiffness_N_per_m"), 0.056e6)) << loop << friction;
+        EXPECT_TRUE(holds(friction.at("gain"), 1.0)) << loop << friction;
+        EXPECT_LT(friction.at("Fc_N").at("high_95"), 0.01962 * 1.03) << loop;
+      }
+    }
+  }
+}
+
+TEST(TrackedFriction, FindsAForceFactorThatIsAQuarterOff) {
+  for (const double factor : {0.75, 1.25}) {
+    const nlohmann::json summary = summary_of(
+        "target_step",
+        tracked({"run.record=[]",
+                 "drive.max_force_amplitude_N=", "drive.max_voltage_amplitude_V=120",
+                 "transducer.force_factor_N_per_V=16", "transducer.clamped_capacitance_F=2e-6",
+                 "true_values.\"transducer.force_factor_N_per_V\"=" + std::to_string(16.0 * factor),
+                 "model_error.coefficient=1.2", "model_error.contact_stiffness=0.7"}));
+    expect_no_fault(summary);
+    for (const Step& step : steps_of(summary)) {
+      EXPECT_NEAR(step.steady_error, 0.0, 0.005) << factor;
+    }
+    const nlohmann::json& friction = summary.at("control").at("friction");
+    EXPECT_TRUE(holds(friction.at("gain"), factor)) << friction;
+    EXPECT_TRUE(holds(friction.at("Fc_N"), 0.01962)) << friction;
+  }
+}
+
+TEST(TrackedFriction, HoldsTheTrueRatioFiveMillisecondsAfterAJump) {
+  for (const std::string& arithmetic : arithmetics) {
+    for (const char* jumped : {"0.15", "0.05"}) {
+      for (const char* stiffness : {"1.0", "1.5", "0.5"}) {
+        const double part = part_within(
+            tracked({"friction.coefficient=",
+                     std::string("friction.coefficient_profile=[[0,0.1],[6e-3,0.1],[6e-3,") +
+                         jumped + "]]",
+                     std::string("model_error.contact_stiffness=") + stiffness,
+                     "controller.arithmetic=" + arithmetic, "run.duration_s=14e-3"}),
+            11e-3);
+        EXPECT_EQ(part, 1.0) << arithmetic << " " << jumped << " " << stiffness;
+      }
+    }
+  }
+}
+
+TEST(TrackedFriction, FollowsAFrictionThatDrifts) {
+  const Settings drift = tracked(
+      {"friction.coefficient=", "friction.coefficient_profile=[[0,0.1],[6e-3,0.1],[26e-3,0.15]]",
+       "run.duration_s=26e-3"});
+  EXPECT_GT(part_within(drift, 6e-3), 0.9) << "the others are dips";
+}
+
+}  // namespace
+}  // namespace sonoglide::acceptance::tracked_friction_test

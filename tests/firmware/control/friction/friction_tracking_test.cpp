@@ -1,0 +1,213 @@
+/// Friction that is learnt while driving: the filter against a batch of normal equations, and the loop
+/// around contacts that are not what the controller was designed for.
+
+#include "firmware/control/friction/friction_tracking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "closed_loop.hpp"
+#include "scalars.hpp"
+
+namespace sonoglide::control::friction_tracking_test {
+namespace {
+
+using Vector = std::array<double, 3>;
+using Matrix = std::array<Vector, 3>;
+
+Matrix inverse(Matrix a) {
+  Matrix b{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double pivot = a[i][i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[i][k] /= pivot;
+      b[i][k] /= pivot;
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double factor = j == i ? 0.0 : a[j][i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        a[j][k] -= factor * a[i][k];
+        b[j][k] -= factor * b[i][k];
+      }
+    }
+  }
+  return b;
+}
+
+template <class S>
+class FrictionEstimateTest : public testing::Test {};
+TYPED_TEST_SUITE(FrictionEstimateTest, Scalars);
+
+/// The information of a batch of linear readings is the sum of what each one has.
+TYPED_TEST(FrictionEstimateTest, IsTheMaximumAPosterioriEstimateOfABatch) {
+  using Estimate = FrictionEstimate<TypeParam>;
+  const auto real = [](TypeParam x) { return numeric::to_real(x); };
+  const Vector prior = {0.09, 0.25, 0.01};
+  const Vector truth = {0.10, -0.20, 0.05};
+  const std::vector<std::pair<Vector, double>> readings = {
+      {{1.0, 0.0, 0.0}, 0.02}, {{1.2, -0.2, -0.5}, 0.02}, {{1.1, -0.1, -0.7}, 0.03}};
+  Estimate estimate(
+      {scaled<TypeParam>(prior[0]), scaled<TypeParam>(prior[1]), scaled<TypeParam>(prior[2])});
+  Matrix information{
+      {{1.0 / prior[0], 0.0, 0.0}, {0.0, 1.0 / prior[1], 0.0}, {0.0, 0.0, 1.0 / prior[2]}}};
+  Vector weighed{};
+  Vector found{};
+  for (const auto& [slope, deviation] : readings) {
+    // What the second order leaves out adds to the variance of the reading.
+    const auto& before = estimate.variance();
+    const double neglected = -slope[1] * real(before.stiffness) - slope[2] * real(before.gain);
+    const double variance = deviation * deviation + neglected * neglected;
+    double shown = 0.0;
+    double expected = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      shown += slope[i] * truth[i];
+      expected += slope[i] * found[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      weighed[i] += slope[i] * shown / variance;
+      for (std::size_t j = 0; j < 3; ++j) {
+        information[i][j] += slope[i] * slope[j] / variance;
+      }
+    }
+    ASSERT_TRUE(estimate.weigh({{scaled<TypeParam>(slope[0] / 2), scaled<TypeParam>(slope[1] / 2),
+                                 scaled<TypeParam>(slope[2] / 2)},
+                                scaled<TypeParam>(deviation / 2),
+                                scaled<TypeParam>((shown - expected) / 2)},
+                               true));
+    const auto moved = estimate.take();
+    found[0] += 2.0 * real(moved.force);
+    found[1] += 2.0 * real(moved.stiffness);
+    found[2] += 2.0 * real(moved.gain);
+  }
+  const Matrix covariance = inverse(information);
+  const auto& left = estimate.variance();
+  const Vector variances = {real(left.force), real(left.stiffness), real(left.gain)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double best = 0.0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      best += covariance[i][j] * weighed[j];
+    }
+    EXPECT_NEAR(found[i], best, 1e-3) << i;
+    // Each reading makes each constant less certain by 4e-6.
+    EXPECT_NEAR(variances[i], covariance[i][i], 0.01 * covariance[i][i] + 1.2e-5) << i;
+  }
+}
+
+TYPED_TEST(FrictionEstimateTest, LeavesOutWhatShowsNothingNew) {
+  using Estimate = FrictionEstimate<TypeParam>;
+  Estimate estimate({scaled<TypeParam>(1e-4), scaled<TypeParam>(0.01), scaled<TypeParam>(1e-4)});
+  typename Estimate::Reading reading{
+      {scaled<TypeParam>(0.55), scaled<TypeParam>(-0.05), scaled<TypeParam>(-0.2)},
+      scaled<TypeParam>(0.002),
+      scaled<TypeParam>(0.01)};
+  EXPECT_FALSE(estimate.weigh(reading, false));
+  reading.innovation = scaled<TypeParam>(0.2);  // a friction that has become half as large again
+  EXPECT_TRUE(estimate.weigh(reading, false));
+  const auto moved = estimate.take();
+  EXPECT_NEAR(2.0 * numeric::to_real(moved.force), 0.4 / 1.1, 0.04);
+}
+
+template <class S>
+class FrictionTrackingTest : public testing::Test {
+ protected:
+  using Loop = ClosedLoop<TrackingParts<S>>;
+
+  static Design trusting() {
+    Design design;
+    design.agreement = 0.0;
+    design.implausible_periods = 60;
+    design.friction_force = 0.3;
+    return design;
+  }
+
+  /// Deviations by which ln Fc, ln Kt and ln g are off.
+  static Vector off(const Loop& loop, const Design& design, const Contact& truth) {
+    const auto& tracking = loop.controller.relearning();
+    const auto real_of = [](const numeric::Floating<S>& x) {
+      if constexpr (numeric::is_fixed_point_v<S>) {
+        return std::ldexp(numeric::to_real(x.mantissa), x.exponent);
+      } else {
+        return numeric::to_real(x);
+      }
+    };
+    const double gain = 1.0 / real_of(tracking.inverse_gain());
+    const double stiffness = design.contact_force * real_of(tracking.contact()) / gain;
+    const double force = numeric::to_real(loop.controller.friction_level().force());
+    const auto& variance = tracking.variance();
+    return {
+        std::log(force / truth.friction_force) / std::sqrt(numeric::to_real(variance.force)),
+        std::log(stiffness / truth.contact_force) / std::sqrt(numeric::to_real(variance.stiffness)),
+        std::log(gain / truth.gain) / std::sqrt(numeric::to_real(variance.gain))};
+  }
+};
+TYPED_TEST_SUITE(FrictionTrackingTest, Scalars);
+
+TYPED_TEST(FrictionTrackingTest, HoldsTheTrueRatioOfAFrictionThatJumps) {
+  const Design design = this->trusting();
+  for (const double factor : {0.5, 1.5}) {
+    Contact contact{0.3 / 1.3, 1.0108 / 1.5, 1.0};
+    typename TestFixture::Loop loop(design, contact);
+    loop.delay_sensor(1);
+    for (const double target : {0.4, 0.6, 0.5}) {
+      loop.set_target(target);
+      loop.run(120);
+      EXPECT_NEAR(loop.ratio(), target, 0.01) << factor;
+      EXPECT_EQ(loop.command().limit, Limit::none);
+    }
+    loop.set_friction_force(factor * contact.friction_force);
+    loop.run(300);
+    EXPECT_NEAR(loop.ratio(), 0.5, 0.02) << factor;
+    EXPECT_EQ(loop.command().fault, Fault::none);
+  }
+}
+
+/// 200 contacts: how many of the intervals of 95 % hold the true value, after three targets.
+TYPED_TEST(FrictionTrackingTest, IsAsCertainAsItIsRight) {
+  constexpr int loops = std::is_same_v<TypeParam, Trapped> ? 200 : 20;
+  for (const double gain_range : {0.02, 0.25}) {
+    std::mt19937_64 random(7);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    std::array<int, 3> held{};
+    std::array<int, 3> far{};
+    int right = 0;
+    for (int i = 0; i < loops; ++i) {
+      Design design = this->trusting();
+      design.gain_deviation = gain_range;
+      design.contact_force = 0.3 * std::exp(between(std::log(0.2), std::log(30.0)));
+      const Contact contact{0.3 / between(0.7, 1.3), design.contact_force / between(0.5, 1.5),
+                            between(1.0 - gain_range, 1.0 + gain_range)};
+      typename TestFixture::Loop loop(design, contact);
+      loop.delay_sensor(1);
+      for (int step = 0; step < 3; ++step) {
+        const double target = between(0.4, 0.9);
+        loop.set_target(target);
+        loop.run(120);
+        right += step == 2 && std::abs(loop.ratio() - target) < 0.02 ? 1 : 0;
+      }
+      const Vector deviations = this->off(loop, design, contact);
+      for (std::size_t k = 0; k < 3; ++k) {
+        held[k] += std::abs(deviations[k]) < 1.96 ? 1 : 0;
+        far[k] += std::abs(deviations[k]) > 4.0 ? 1 : 0;
+      }
+      ASSERT_NE(loop.command().state, State::fault) << i;
+    }
+    EXPECT_GE(right, loops * 98 / 100) << gain_range;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_GE(held[k], loops * 95 / 100) << gain_range << " " << k;
+      EXPECT_LE(far[k], loops / 100) << gain_range << " " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sonoglide::control::friction_tracking_test
