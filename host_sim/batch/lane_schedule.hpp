@@ -95,8 +95,10 @@ class LaneSchedule {
 
   void begin_stretch(std::size_t lane, const LaneStretch& stretch) {
     set(plant_.drive_amplitude, lane, stretch.drive.at_zero);
-    set(plant_.drive_slope, lane, stretch.drive.slope);
-    set(plant_.drive_bound, lane, bound_of(stretch.drive));
+    if constexpr (Setting::ramped) {
+      set(plant_.drive_slope, lane, stretch.drive.slope);
+      set(plant_.drive_bound, lane, bound_of(stretch.drive));
+    }
     set(motion_.phase, lane, 0.0);
     set(motion_.periods_left, lane, stretch.periods);
     set(motion_.steps_left, lane, stretch.periods * most_steps_per_period);

@@ -31,7 +31,7 @@ struct CurvatureBound {
   HWY_INLINE CurvatureBound(D d, const PlantLanes<D>& plant, const MotionLanes<D>& motion,
                             const InstantLanes<D, Drive>& instant, V extent) {
     const V length = extent * instant.unit;
-    const V drive = plant.drive_bound;
+    const V drive = Drive::bound(plant);
     const V speed = Abs(motion.velocity);
     const V velocity = MulAdd(drive + plant.friction_force, length,
                               MulAdd(plant.natural_frequency, Abs(motion.displacement), speed));

@@ -23,9 +23,7 @@ template <class D>
 struct PlantLanes {
   using V = Pack<D>;
 
-  V drive_amplitude;    ///< a, at phase 0
-  V drive_slope;        ///< its increase with the phase; of no use unless the setting is ramped
-  V drive_bound;        ///< of the force and its first two derivatives within a period
+  V drive_amplitude;    ///< a
   V damping;            ///< d
   V stiffness;          ///< k
   V friction_force;     ///< beta
@@ -34,6 +32,9 @@ struct PlantLanes {
   V vibration_sign;     ///< sigma
   V natural_frequency;  ///< sqrt(k)
   V own_rate;           ///< the fastest that the plant moves by itself, of the order of 1 at least
+  // Where the setting is ramped:
+  V drive_slope;  ///< increase of a with the phase, which then is that of phase 0
+  V drive_bound;  ///< of the force and its first two derivatives within a period
 };
 
 template <class D>
@@ -61,14 +62,17 @@ template <class D>
 struct CosineTerms {
   Pack<D> term[2];
 
-  /// The N-th, each in its turn.
   template <int N>
-  HWY_INLINE Pack<D> take(D d, Pack<D> unit_squared) {
+  HWY_INLINE Pack<D> at() const {
+    return term[N % 2];
+  }
+  /// The place of the one before the N-th becomes that of the one after it.
+  template <int N>
+  HWY_INLINE void pass(D d, Pack<D> unit_squared) {
     if constexpr (N > 0) {
       const Pack<D> next = term[(N + 1) % 2] * unit_squared;
       term[(N + 1) % 2] = Neg(next * (reciprocal(d, N + 1) * reciprocal(d, N)));
     }
-    return term[N % 2];
   }
 };
 
@@ -81,6 +85,8 @@ struct HeldDrive {
   HWY_INLINE V amplitude(const PlantLanes<D>& plant, V /*phase*/) const {
     return plant.drive_amplitude;
   }
+  /// Of the force and its first two derivatives.
+  static HWY_INLINE V bound(const PlantLanes<D>& plant) { return Abs(plant.drive_amplitude); }
   HWY_INLINE CosineTerms<D> series(V first, V second, V /*unit*/, V /*unit_squared*/) const {
     return {{first, second}};
   }
@@ -100,13 +106,20 @@ struct RampedDrive {
     return MulAdd(plant.drive_slope, phase, plant.drive_amplitude);
   }
 
+  static HWY_INLINE V bound(const PlantLanes<D>& plant) { return plant.drive_bound; }
+
   struct Terms {
     CosineTerms<D> level;
     CosineTerms<D> slope;
 
     template <int N>
-    HWY_INLINE V take(D d, V unit_squared) {
-      return level.template take<N>(d, unit_squared) + slope.template take<N - 1>(d, unit_squared);
+    HWY_INLINE V at() const {
+      return level.template at<N>() + slope.template at<N - 1>();
+    }
+    template <int N>
+    HWY_INLINE void pass(D d, V unit_squared) {
+      level.template pass<N>(d, unit_squared);
+      slope.template pass<N - 1>(d, unit_squared);
     }
   };
   HWY_INLINE Terms series(V first, V second, V unit, V unit_squared) const {
@@ -215,12 +228,12 @@ struct SeriesLanes {
     const V factor = reciprocal(d, N + 1);
     relaxation_[N] = recurrence.vibration * velocity[N];
     displacement[N + 1] = factor * velocity[N];
-    V force = NegMulAdd(recurrence.stiffness, displacement[N],
-                        drive.template take<N>(d, recurrence.unit_squared));
+    V force = NegMulAdd(recurrence.stiffness, displacement[N], drive.template at<N>());
     force = NegMulAdd(recurrence.damping, velocity[N], force);
     force = MulAdd(recurrence.friction, deficit[N], force);
     velocity[N + 1] = factor * force;
     deficit[N + 1] = factor * convolution(std::make_integer_sequence<int, (N + 1) / 2>(), N);
+    drive.template pass<N>(d, recurrence.unit_squared);
   }
 
   /// Sum of relaxation[j] deficit[n - j], from the middle outwards: the newest factors enter last,
