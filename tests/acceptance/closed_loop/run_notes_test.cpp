@@ -61,6 +61,13 @@ TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
   EXPECT_NE(told.summary["control"]["notes"].dump().find("opens the contact"), std::string::npos);
 }
 
+TEST(RunNotesTest, ABiasThatNobodyUsesIsTold) {
+  const Told told = run("target_step", "--set drive.bias_limit_N=20");
+  EXPECT_NE(told.terminal.find("drive.bias_limit_N changes nothing"), std::string::npos);
+  EXPECT_NE(told.summary["control"]["notes"].dump().find("drive.bias_limit_N changes nothing"),
+            std::string::npos);
+}
+
 /// How often a part is in a text.
 int count(const std::string& text, const std::string& part) {
   int found = 0;
