@@ -5,6 +5,7 @@
 
 #include "firmware/control/friction/friction_estimate.hpp"
 #include "firmware/control/friction/friction_level.hpp"
+#include "firmware/control/friction/half_logarithm.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/interface/part_name.hpp"
 #include "firmware/numeric/accumulator.hpp"
@@ -144,14 +145,14 @@ class FrictionTracking {
 
  private:
   using Floating = numeric::Floating<Scalar>;
-
   enum class Phase : std::uint8_t { watch, reversal_slope, stiffness_slope, weigh, learn, adapt };
 
   static constexpr Scalar one_half() { return numeric::from_real<Scalar>(0.5); }
   static Floating unity() { return numeric::rescaled(numeric::floating(one_half()), 1); }
 
-  static bool differs(Scalar request, Scalar from, int parts_bits) {
-    return numeric::scale_by_power_of_two(from, -parts_bits) < numeric::abs(request - from);
+  /// By more than 2^-bits of it.
+  static bool differs(Scalar request, Scalar from, int bits) {
+    return numeric::scale_by_power_of_two(from, -bits) < numeric::abs(request - from);
   }
 
   bool uncertain() const { return parameters_.certain < estimate_.variance().force; }
@@ -178,8 +179,7 @@ class FrictionTracking {
       begin(now.requested);
       return;
     }
-    constexpr int steady_bits = 4;
-    if (differs(now.requested, stands_at_, steady_bits)) {
+    if (differs(now.requested, stands_at_, 4)) {
       begin(now.requested);
     }
     if (dips_) {
@@ -203,8 +203,7 @@ class FrictionTracking {
 
   /// A reading is complete.
   void compare() {
-    constexpr int another_bits = 6;
-    wanted_ = dips_ || differs(stands_at_, taken_at_, another_bits);
+    wanted_ = dips_ || differs(stands_at_, taken_at_, 6);
     if (limited_ && !dips_) {
       dip(wanted_);
       taken_at_ = stands_at_;
@@ -212,16 +211,10 @@ class FrictionTracking {
       return;
     }
     ratio_ = dips_ ? one_half() : numeric::rounded<Scalar>(commanded_);
-    const Scalar sum = numeric::half_sum(numeric::rounded<Scalar>(measured_), ratio_);
-    const Scalar difference = numeric::half_difference(numeric::rounded<Scalar>(measured_), ratio_);
+    reading_.innovation = half_log(numeric::rounded<Scalar>(measured_), ratio_);
     constexpr Scalar least = numeric::from_real<Scalar>(0x1p-12);
-    const Scalar half_log = numeric::clamp_magnitude(
-        numeric::limited_product(difference, inverse(numeric::max(sum, least))),
-        numeric::from_real<Scalar>(0.6));
-    // ln x = 2 (u + u³/3 + …), u = (x − 1)/(x + 1)
-    reading_.innovation = half_log + third_of_cube(half_log);
     reading_.deviation =
-        numeric::limited_product(parameters_.deviation, inverse(numeric::max(ratio_, least)));
+        numeric::limited_product(parameters_.deviation, inverse_of(numeric::max(ratio_, least)));
     reading_.slope = {one_half(), Scalar{}, Scalar{}};
     phase_ = dips_ ? Phase::weigh : Phase::reversal_slope;
   }
@@ -258,7 +251,7 @@ class FrictionTracking {
     constexpr double per_log = 2.0 / 0.22314355131420976;  // ln 1.25
     constexpr Scalar factor = numeric::from_real<Scalar>(per_log / 16.0);
     const Scalar part = numeric::limited_product(
-        change, numeric::rescaled(inverse(numeric::half_sum(amplitude_, stiffer)), 4));
+        change, numeric::rescaled(inverse_of(numeric::half_sum(amplitude_, stiffer)), 4));
     reading_.slope.stiffness =
         numeric::rough_product(reading_.slope.gain, numeric::rough_product(factor, part));
     reading_.slope.force = one_half() - reading_.slope.stiffness;
@@ -275,30 +268,12 @@ class FrictionTracking {
 
   void learn() {
     const typename Estimate::Each moved = estimate_.take();
-    force_change_ = exponential(moved.force);
-    contact_ = numeric::product(contact_, exponential(moved.stiffness));
-    contact_ = numeric::product(contact_, exponential(moved.gain));
-    inverse_gain_ = numeric::product(inverse_gain_, exponential(-moved.gain));
+    force_change_ = exponential_of_twice(moved.force);
+    contact_ = numeric::product(numeric::product(contact_, exponential_of_twice(moved.stiffness)),
+                                exponential_of_twice(moved.gain));
+    inverse_gain_ = numeric::product(inverse_gain_, exponential_of_twice(-moved.gain));
     taken_at_ = stands_at_;
     phase_ = Phase::adapt;
-  }
-
-  static Floating inverse(Scalar x) {
-    return numeric::rescaled(numeric::quotient(numeric::floating(one_half()), numeric::floating(x)),
-                             1);
-  }
-
-  static Scalar third_of_cube(Scalar x) {
-    constexpr Scalar third = numeric::from_real<Scalar>(1.0 / 3.0);
-    return numeric::rough_product(numeric::rough_product(x, third), numeric::rough_product(x, x));
-  }
-
-  /// e^2x = (1 + tanh x)/(1 − tanh x), tanh x = x − x³/3; |x| <= 1/2. Within 0.9 % of it at the ends,
-  /// 0.02 % at 1/4: the next reading shows it.
-  static Floating exponential(Scalar half) {
-    const Scalar tangent = numeric::half(half - third_of_cube(half));
-    return numeric::quotient(numeric::floating(one_half() + tangent),
-                             numeric::floating(one_half() - tangent));
   }
 
   Parameters parameters_;
