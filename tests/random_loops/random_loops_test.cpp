@@ -20,29 +20,39 @@ constexpr std::uint32_t seed = 1;
 constexpr std::uint32_t count = SONOGLIDE_RANDOM_LOOPS;
 
 struct Kind {
-  Vibration vibration;
   const char* name;  ///< of the table too
+  Vibration vibration;
+  const char* setting = nullptr;  ///< in the scene of each loop
+  std::uint32_t loops = count;    ///< that are run here
 };
 
-constexpr std::array<Kind, 4> kinds = {{{Vibration::unseen, "unseen"},
-                                        {Vibration::sensorless, "felt"},
-                                        {Vibration::damped, "damped"},
-                                        {Vibration::damped_alone, "alone"}}};
+const std::array<Kind, 5> kinds = {
+    {{"unseen", Vibration::unseen},
+     {"felt", Vibration::sensorless},
+     {"damped", Vibration::damped},
+     {"alone", Vibration::damped_alone},
+     {"ramped", Vibration::unseen, "drive.interpolation=\"linear\"", 100}}};
 
-const std::vector<Outcome>& all(Vibration vibration) {
-  static const std::array<std::vector<Outcome>, kinds.size()> once = {
-      outcomes(seed, count, kinds[0].vibration), outcomes(seed, count, kinds[1].vibration),
-      outcomes(seed, count, kinds[2].vibration), outcomes(seed, count, kinds[3].vibration)};
-  return once[static_cast<std::size_t>(vibration)];
+const std::vector<Outcome>& all(const Kind& kind) {
+  static std::map<std::string, std::vector<Outcome>> once;
+  std::vector<Outcome>& found = once[kind.name];
+  if (found.empty()) {
+    std::vector<std::string> settings;
+    if (kind.setting != nullptr) {
+      settings.emplace_back(kind.setting);
+    }
+    found = outcomes(seed, kind.loops, kind.vibration, settings);
+  }
+  return found;
 }
 
 class RandomLoopsOfAKindTest : public testing::TestWithParam<Kind> {};
 
 /// The rows of a table that are about so many loops.
-std::vector<csv::Cells> rows(const csv::Table& table) {
+std::vector<csv::Cells> rows(const csv::Table& table, std::uint32_t loops) {
   std::vector<csv::Cells> found;
   for (const csv::Row& row : table.rows()) {
-    if (row.text("loops") == std::to_string(count)) {
+    if (row.text("loops") == std::to_string(loops)) {
       found.push_back(row.cells());
     }
   }
@@ -53,10 +63,10 @@ TEST_P(RandomLoopsOfAKindTest, EndAsRecorded) {
   const std::string path =
       std::string(SONOGLIDE_RANDOM_LOOPS_TABLES) + "/" + GetParam().name + ".csv";
   const csv::Table recorded = csv::read_file(path.c_str());
-  const csv::Table computed(table_csv(all(GetParam().vibration), {count}));
+  const csv::Table computed(table_csv(all(GetParam()), {GetParam().loops}));
   EXPECT_EQ(computed.columns(), recorded.columns());
-  const std::vector<csv::Cells> recorded_rows = rows(recorded);
-  const std::vector<csv::Cells> computed_rows = rows(computed);
+  const std::vector<csv::Cells> recorded_rows = rows(recorded, GetParam().loops);
+  const std::vector<csv::Cells> computed_rows = rows(computed, GetParam().loops);
   ASSERT_GE(computed_rows.size(), 1U);
   ASSERT_EQ(recorded_rows.size(), computed_rows.size());
   for (std::size_t i = 0; i < computed_rows.size(); ++i) {
@@ -68,7 +78,7 @@ TEST_P(RandomLoopsOfAKindTest, EndAsRecorded) {
 
 TEST_P(RandomLoopsOfAKindTest, HaveAVerdictForEachStep) {
   std::size_t steps = 0;
-  for (const Outcome& outcome : all(GetParam().vibration)) {
+  for (const Outcome& outcome : all(GetParam())) {
     EXPECT_EQ(outcome.failed, "") << outcome.loop.index;
     EXPECT_EQ(outcome.steps.size(), outcome.refused.empty() ? steps_per_loop : 0U)
         << outcome.loop.index;
@@ -80,7 +90,7 @@ TEST_P(RandomLoopsOfAKindTest, HaveAVerdictForEachStep) {
     }
     steps += outcome.steps.size();
   }
-  EXPECT_GE(steps, steps_per_loop * count / 2);
+  EXPECT_GE(steps, steps_per_loop * GetParam().loops / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomLoopsOfAKindTest, testing::ValuesIn(kinds),

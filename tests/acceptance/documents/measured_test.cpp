@@ -63,6 +63,25 @@ TEST(MeasuredFigures, OfRandomLoopsAreThoseOfTheirTables) {
   }
 }
 
+TEST(MeasuredFigures, OfARampedDriveAreThoseOfItsTable) {
+  const std::string text = document();
+  const csv::Table step = csv::read_file(source / "tests/random_loops/unseen.csv");
+  const csv::Table ramped = csv::read_file(source / "tests/random_loops/ramped.csv");
+  for (const auto& [name, loops] :
+       {std::pair("all", "all"), std::pair("mode within 0.0052 of a multiple", "within 0.0052"),
+        std::pair("mode within 0.02 of a multiple", "within 0.02"),
+        std::pair("mode within 0.064 of a multiple", "within 0.064"),
+        std::pair("mode below 0.064", "below 0.064"), std::pair("friction calibrated", "learnt"),
+        std::pair("friction trusted", "trusted")}) {
+    for (const char* model : {"exact", "wrong"}) {
+      const std::string line =
+          fmt::format("| {} | {} | {} | {} |", name, model, shares(loops_of(step, model, loops)),
+                      shares(loops_of(ramped, model, loops)));
+      EXPECT_NE(text.find(line), std::string::npos) << line;
+    }
+  }
+}
+
 std::string instructions(const csv::Table& budget, const std::string& board,
                          const std::string& arithmetic, const std::string& scene) {
   for (const csv::Row& row : budget.rows()) {

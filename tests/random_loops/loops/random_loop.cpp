@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "firmware/numeric/float_sqrt.hpp"
 #include "firmware/numeric/turn.hpp"
@@ -341,6 +342,12 @@ double turn_error_rad(const RandomLoop& loop) {
 }
 
 }  // namespace
+
+double beside_multiple(const RandomLoop& loop) {
+  const double nearest = std::round(loop.mode_per_carrier);
+  return nearest < 2.0 ? std::numeric_limits<double>::infinity()
+                       : std::abs(loop.mode_per_carrier - nearest);
+}
 
 Cause cause_of(const RandomLoop& loop) {
   constexpr double beside = 0.13;

@@ -93,6 +93,10 @@ struct RandomLoop {
 /// wrong by up to 5 % in stiffness, 30 % in friction and 50 % in contact stiffness.
 RandomLoop random_loop(std::uint32_t seed, std::uint32_t index);
 
+/// Distance of the mode from the nearest multiple of the carrier, from the second on, in carrier
+/// frequencies; infinite where none is nearest.
+double beside_multiple(const RandomLoop& loop);
+
 /// What is most likely to keep a loop from its targets, by what was drawn alone: the first of these that
 /// holds. A step that is out of the drive's reach is counted beside that.
 enum class Cause {

@@ -23,6 +23,12 @@ std::vector<Class> classes() {
     all.push_back({"mode", std::string(mode_names[i]),
                    [i](const RandomLoop& loop) { return loop.mode == static_cast<Mode>(i); }});
   }
+  for (const double within : {0.0052, 0.02, 0.064}) {
+    all.push_back({"mode beside a multiple", fmt::format("within {}", within),
+                   [within](const RandomLoop& loop) { return beside_multiple(loop) < within; }});
+  }
+  all.push_back({"mode over carrier", "below 0.064",
+                 [](const RandomLoop& loop) { return loop.mode_per_carrier < 0.064; }});
   all.push_back(
       {"damping", "none", [](const RandomLoop& loop) { return loop.damping_ratio == 0.0; }});
   all.push_back({"damping", "below 0.01", [](const RandomLoop& loop) {
@@ -62,6 +68,10 @@ std::vector<Class> classes() {
   return all;
 }
 
+/// Of steps that never settle; the rest of the limits is rare.
+constexpr std::array<control::Limit, 3> told_limits = {
+    control::Limit::not_settling, control::Limit::mismatch, control::Limit::ratio_end};
+
 struct Counts {
   std::size_t drawn = 0;
   std::size_t refused = 0;
@@ -70,12 +80,28 @@ struct Counts {
   std::array<std::size_t, verdicts> of_verdict{};
   std::size_t at_end = 0;
   std::size_t out_of_reach = 0;
+  std::array<std::size_t, told_limits.size()> of_limit{};
+  std::size_t faults = 0;
   std::size_t named_settled = 0;
   std::vector<double> ripples;
 };
 
 bool out_of_reach(const StepOutcome& step, Verdict verdict) {
   return verdict == Verdict::never_named && step.metrics.limit == control::Limit::actuator;
+}
+
+/// Why a step never settles that the drive could reach.
+void count_name(const StepOutcome& step, Verdict verdict, Counts& counts) {
+  if (verdict != Verdict::never_named || out_of_reach(step, verdict)) {
+    return;
+  }
+  if (!step.fault.empty()) {
+    ++counts.faults;
+    return;
+  }
+  for (std::size_t i = 0; i < told_limits.size(); ++i) {
+    counts.of_limit[i] += step.metrics.limit == told_limits[i] ? 1 : 0;
+  }
 }
 
 enum class Judged { ratio, velocity };
@@ -87,9 +113,11 @@ void count(const Outcome& outcome, Judged judged, Counts& counts) {
   for (const StepOutcome& step : outcome.steps) {
     ++counts.steps;
     const bool ratio = judged == Judged::ratio;
-    ++counts.of_verdict[static_cast<std::size_t>(ratio ? step.verdict : step.velocity_verdict)];
+    const Verdict verdict = ratio ? step.verdict : step.velocity_verdict;
+    ++counts.of_verdict[static_cast<std::size_t>(verdict)];
     counts.at_end += ratio && step.at_end ? 1 : 0;
-    counts.out_of_reach += out_of_reach(step, ratio ? step.verdict : step.velocity_verdict) ? 1 : 0;
+    counts.out_of_reach += out_of_reach(step, verdict) ? 1 : 0;
+    count_name(step, verdict, counts);
     counts.named_settled += ratio && step.settled() && step.named() ? 1 : 0;
     counts.ripples.push_back(step.metrics.ripple);
   }
@@ -124,11 +152,12 @@ std::string quantiles(std::vector<double> values) {
 
 std::string row(std::size_t loops, const char* model, Judged judged, const Class& each,
                 const Counts& counts) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", loops, model,
-                     judged == Judged::ratio ? "ratio" : "velocity", each.of, each.name,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", loops,
+                     model, judged == Judged::ratio ? "ratio" : "velocity", each.of, each.name,
                      counts.drawn, counts.refused, counts.failed, counts.steps,
                      counts.of_verdict[0], counts.of_verdict[1], counts.at_end,
-                     counts.of_verdict[2], counts.out_of_reach, counts.of_verdict[3],
+                     counts.of_verdict[2], counts.out_of_reach, counts.of_limit[0],
+                     counts.of_limit[1], counts.of_limit[2], counts.faults, counts.of_verdict[3],
                      counts.named_settled, quantiles(counts.ripples));
 }
 
@@ -196,7 +225,7 @@ std::string list(const std::vector<Outcome>& all,
 std::string table_csv(const std::vector<Outcome>& all, const std::vector<std::uint32_t>& counts) {
   std::string text =
       "loops,model,judged_by,class_of,class,drawn,refused,failed,steps,prompt,late,at_end,never_"
-      "named,out_of_reach,"
+      "named,out_of_reach,not_settling,mismatch,ratio_end,fault,"
       "never_unnamed,named_settled,ripple_p50,ripple_p90,ripple_p99\n";
   for (const std::uint32_t loops : counts) {
     for (const Judged judged : judgements(all)) {

@@ -25,6 +25,8 @@ namespace sonoglide::random_loops {
 ///     at_end          of these, settled only in the step's last quarter
 ///     never_named     not settled, with a limit or a fault
 ///     out_of_reach    of these, with the limit actuator
+///     not_settling, mismatch, ratio_end, fault
+///                     of these, with that limit, or with a fault
 ///     never_unnamed   not settled, without
 ///     named_settled   settled although a limit or a fault is named
 ///     ripple_p50 …    quantiles, in friction ratio
