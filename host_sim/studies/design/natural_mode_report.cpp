@@ -41,7 +41,7 @@ std::string means(const QuietDrive& drive) {
     case configure::Quieting::nothing:
       break;
   }
-  return "nothing";
+  return "no notch";
 }
 
 std::string word(const QuietDrive& drive) {
@@ -51,10 +51,10 @@ std::string word(const QuietDrive& drive) {
 
 std::string left_behind(const QuietDrive& drive) {
   return fmt::format(
-      "with {}, {} keeps it quiet in {:g} carrier periods and leaves {:.2g} % of free vibration for "
-      "a change of the amplitude, a swing of the ratio of ±{:.2g}",
-      word(drive), means(drive), drive.changing_periods, 100.0 * drive.left.left,
-      drive.left.ratio_swing);
+      "with {}, {}: {:.3g} % of free vibration is left {:g} carrier {} after a change of the "
+      "amplitude, a swing of the ratio of ±{:.2g}",
+      word(drive), means(drive), 100.0 * drive.left.left, drive.changing_periods,
+      drive.changing_periods == 1.0 ? "period" : "periods", drive.left.ratio_swing);
 }
 
 /// The number of a multiple of the carrier, as a place.

@@ -34,7 +34,18 @@ Variation natural_frequency(const std::string& name, double part, double periods
           {periods * 1.0001 * period_s, 0.001, 0.002}};
 }
 
+/// With the natural mode 0.010 carrier frequencies above twice the carrier, where no notch serves, and a
+/// stiffness that is believed to be another.
+Variation ramped_beside_a_multiple(const std::string& name, const std::string& believed) {
+  return {"ramped_beside_a_multiple_" + name,
+          {"plant.stiffness_N_per_m=11.484e9", "drive.max_force_amplitude_N=6000",
+           "drive.interpolation=linear", "model_error.stiffness=" + believed},
+          {12.0 * period_s, 0.002, 0.005}};
+}
+
 const Variation variations[] = {
+    ramped_beside_a_multiple("3_percent_softer", "0.97"),
+    ramped_beside_a_multiple("3_percent_stiffer", "1.03"),
     damped("0.001", "3.26"),
     damped("0.01", "32.6"),
     damped("0.1", "326"),
