@@ -134,7 +134,6 @@ constexpr bool operator!=(SolverMethod a, SolverMethod b) {
 
 struct Solver {
   SolverMethod method;
-  bool automatic = false;    ///< the scene names none: this one is the fastest for a single run
   double tolerance = 1e-10;  ///< adaptive methods
   std::optional<int> order;  ///< absent, the one that suits the tolerance
   /// Fixed steps, shortened so that a whole number fits a carrier period. Of an adaptive method the

@@ -186,7 +186,6 @@ void check_solver(const TableCursor& cursor, const Variant& /*variant*/, scene::
 
 void settle_method(const TableCursor& cursor, scene::Scene& scene) {
   if (!cursor.has("method")) {
-    scene.solver.automatic = true;
     scene.solver.method = scene::fastest_method(scene);
   }
 }

@@ -27,6 +27,9 @@ class GaussStep {
   State<Scalar> end() const { return panel_.end(); }
 
   State<Scalar> at(Scalar offset) const {
+    if (!(offset > Scalar(0))) {
+      return start_;  // to the last digit
+    }
     const Scalar x =
         numeric::clamp(offset / motions_.half_length - Scalar(1), Scalar(-1), Scalar(1));
     const auto& piece = piece_at(x);

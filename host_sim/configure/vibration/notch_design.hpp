@@ -52,7 +52,7 @@ struct FeedforwardDesign {
   Quieting quieting = Quieting::nothing;
   bool ramped = false;  ///< the amplitude passes linearly over a carrier period
   /// How far the natural frequency may be off, relative, of a ramped drive: by the tolerances of
-  /// stiffness and mass, or else 0.025.
+  /// stiffness and mass, or else 0.01.
   double frequency_range = 0.0;
   /// Of a ramped drive: the largest free vibration within that range that a change of the amplitude
   /// leaves behind, over its forced vibration, in displacement; and half the swing of the friction

@@ -120,9 +120,9 @@ Quieting quieting_of(bool ramp, bool notch) {
 }  // namespace
 
 double believed_range(const scene::Scene& scene) {
-  constexpr double stiffness_off_by_a_twentieth = 0.025;
+  constexpr double without_tolerances = 0.01;
   const double range = natural_frequency_range(scene.tolerances);
-  return range > 0.0 ? std::min(range, scene::most_shaping_range) : stiffness_off_by_a_twentieth;
+  return range > 0.0 ? std::min(range, scene::most_shaping_range) : without_tolerances;
 }
 
 LeftBehind left_behind(const scene::Scene& scene, const NominalPlant& plant,

@@ -276,11 +276,13 @@ TEST(StepMetricsTest, TheSimulationNamesATrueCurrentAboveItsLimit) {
   Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
   std::vector<loop::Period> periods = resonant_run(scene, 0.5);
   scene.transducer = scene::Transducer{2.0, 1e-9, 0.0};
+  for (loop::Period& period : periods) {
+    period.current_A = {0.202, 3e-4};  // modulus 0.2020002
+  }
   const auto limit_with = [&](double largest_A) {
     scene.drive->max_current_amplitude_A = largest_A;
     return only_step(scene, periods);
   };
-  // Nf v = 2 N/V 0.101 m/s, and 2 pi 1 kHz 1 nF 50 V = 0.3 mA through C0.
   EXPECT_EQ(limit_with(0.2025).limit, control::Limit::none);
   EXPECT_EQ(limit_with(0.202).limit, control::Limit::current);
   EXPECT_FALSE(limit_with(0.202).limit_seen_by_controller);

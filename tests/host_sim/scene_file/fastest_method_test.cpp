@@ -31,7 +31,6 @@ std::string_view method_in_open_loop(Settings settings) {
 
 TEST(FastestMethodTest, IsEventGaussAtTable1) {
   EXPECT_EQ(method_of("target_step"), "event_gauss");
-  EXPECT_TRUE(solver_of("target_step").automatic);
   for (const char* tolerance : {"1e-5", "1e-6", "1e-8", "1e-10"}) {
     EXPECT_EQ(method_of("target_step", {std::string("solver.tolerance=") + tolerance}),
               "event_gauss")
@@ -43,7 +42,6 @@ TEST(FastestMethodTest, IsEventGaussAtTable1) {
 
 TEST(FastestMethodTest, IsTheOneThatTheSceneNames) {
   EXPECT_EQ(method_of("target_step", {"solver.method=event_taylor"}), "event_taylor");
-  EXPECT_FALSE(solver_of("target_step", {"solver.method=event_taylor"}).automatic);
   EXPECT_EQ(method_of("heavy_friction_open_loop", {"solver.method=event_gauss"}), "event_gauss");
 }
 
