@@ -2,17 +2,16 @@
 
 #include "firmware/plant/taylor/step_share.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/scene/cores/fastest_method.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 
 namespace sonoglide::runs {
 namespace {
 
-/// The lanes have event_taylor's method, and serve where a scene that names none gets another one: its
-/// echo, which names that, runs as it does.
-bool has_method_of_lanes(const scene::Scene& scene) {
-  const bool taylor = scene.solver.method == scene::method_of<scene::solvers::EventTaylor>;
-  return !scene.solver.order && (taylor || scene.solver.method == scene::fastest_method(scene));
+/// Either method that a scene gets that names none: its echo, which names it, then runs as it does, and
+/// so do the plants of a study, whichever of the two is the faster for each of them.
+bool has_method_of_lanes(const scene::Solver& solver) {
+  return !solver.order && (solver.method == scene::method_of<scene::solvers::EventTaylor> ||
+                           solver.method == scene::method_of<scene::solvers::EventGauss>);
 }
 
 bool suits_lanes(const scene::Scene& scene) {
@@ -20,7 +19,7 @@ bool suits_lanes(const scene::Scene& scene) {
          scene.drive->waveform == scene::Waveform::cosine && scene.drive->codes_per_period == 1 &&
          scene.drive->bias_limit_N == 0.0 && scene::is<scene::laws::Dahl>(scene.friction.law) &&
          scene.friction.limit_N() > 0.0 && scene.profile_key() == nullptr &&
-         scene.sliding.profile.size() == 1 && has_method_of_lanes(scene);
+         scene.sliding.profile.size() == 1 && has_method_of_lanes(scene.solver);
 }
 
 /// The lanes take steps of one share of their tolerance.

@@ -256,7 +256,7 @@ TEST(RunsInLanes, OnlyWhatTheLanesAreMadeFor) {
   EXPECT_TRUE(refused([](Scene& s) { s.solver.tolerance = 9e-7; }));
   EXPECT_TRUE(refused([](Scene& s) { s.solver.order = 12; }));
   EXPECT_TRUE(
-      refused([](Scene& s) { s.solver.method = scene::method_of<scene::solvers::EventGauss>; }));
+      refused([](Scene& s) { s.solver.method = scene::method_of<scene::solvers::Strang>; }));
   EXPECT_TRUE(refused([](Scene& s) { s.friction.law = scene::laws::Coulomb{}; }));
   EXPECT_TRUE(refused([](Scene& s) { s.friction.coefficient = 0.0; }));
   EXPECT_TRUE(refused([](Scene& s) { s.drive->waveform = scene::Waveform::square; }));
