@@ -24,8 +24,8 @@ struct BatchPoint {
 };
 
 /// Absent where the lanes cannot do the scene: they take open loop under a drive, Dahl friction,
-/// constant sliding velocity, whole carrier periods in run and window, and event_taylor or no method
-/// asked for, with no order and a tolerance of at least 1e-8. From 1e-4 on they compute in float32.
+/// constant sliding velocity, whole carrier periods in run and window, and event_taylor or event_gauss
+/// with no order asked for and a tolerance of at least 1e-8. From 1e-4 on they compute in float32.
 std::optional<BatchPoint> batch_point(const scene::Scene& scene);
 
 /// @param run  solved
