@@ -30,7 +30,7 @@ const char* name(configure::Quieting quieting) {
 }
 
 std::string means(const QuietDrive& drive) {
-  const std::string notch = fmt::format("a notch of {} taps", drive.tap_count);
+  std::string notch = fmt::format("a notch of {} taps", drive.tap_count);
   switch (drive.quieting) {
     case configure::Quieting::notch:
       return notch;
