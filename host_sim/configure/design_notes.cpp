@@ -122,8 +122,8 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
   if (mode.missing_damping_N_s_per_m > 0.0) {
     constexpr double never_rounded_down = 1.005;  // to three digits
     notes.push_back(fmt::format(
-        "The natural mode hardly decays. Feedback may then amplify the ringing that the {} "
-        "leaves, over thousands of carrier periods, even if the stiffness is known exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
+        "The natural mode hardly decays. Feedback may then amplify the ringing that is left by the {}, "
+        "over thousands of carrier periods, even if the stiffness is known exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
         mode.ramped ? mode.notch ? "ramp and the notch" : "ramp" : "robust notch",
         never_rounded_down * mode.missing_damping_N_s_per_m));
   }

@@ -32,7 +32,7 @@ double motion_m(const scene::Scene& scene, double omega) {
   const double motion =
       std::max({force_N / resistance_N_per_m, std::abs(plant.initial_velocity_m_per_s) / omega,
                 std::abs(plant.initial_displacement_m)});
-  const double sliding_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double sliding_m_per_s = scene.sliding.fastest_m_per_s();
   if (motion > 0.0) {
     return motion;
   }
@@ -40,14 +40,6 @@ double motion_m(const scene::Scene& scene, double omega) {
 }
 
 }  // namespace
-
-double fastest_sliding_m_per_s(const scene::Sliding& sliding) {
-  double fastest = 0.0;
-  for (const scene::SpeedPoint& point : sliding.profile) {
-    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
-  }
-  return fastest;
-}
 
 std::complex<double> dynamic_stiffness(const scene::Plant& plant, double omega_rad_per_s) {
   return {plant.stiffness_N_per_m - plant.mass_kg * omega_rad_per_s * omega_rad_per_s,

@@ -50,7 +50,4 @@ scene::ContactValues contact_at(const scene::Friction& friction, double time_s);
 /// Without a friction force there is no friction, whatever the law.
 scene::FrictionLaw acting_law(const scene::Friction& friction);
 
-/// Largest |Vt| of the profile.
-double fastest_sliding_m_per_s(const scene::Sliding& sliding);
-
 }  // namespace sonoglide::configure

@@ -33,11 +33,12 @@ double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode)
 }
 
 /// Feedback drives what a notch or a ramp leaves of the free mode, to grow or to decay as the delays
-/// of the loop have it, and at a rate below a quarter of gain times ripple per carrier period (an
-/// eighth was seen at Table 1, at the worst of several delays).
-double missing_damping_N_s_per_m(double ripple, const NaturalMode& mode, double mass_kg,
-                                 const ControlDesign& design) {
-  const double growth = 0.25 * design.integral_gain * ripple;
+/// of the loop have it, and at a rate below a part of gain times ripple per carrier period. Behind a
+/// notch an eighth was seen, at Table 1 and the worst of several delays; under a ramp alone up to 0.6,
+/// with a mode at 2.06 carriers.
+double missing_damping_N_s_per_m(double ripple, bool ramp_alone, const NaturalMode& mode,
+                                 double mass_kg, const ControlDesign& design) {
+  const double growth = (ramp_alone ? 0.625 : 0.25) * design.integral_gain * ripple;
   return growth > 1.0 - mode.decay ? 2.0 * mass_kg * growth / design.scales.carrier_period_s : 0.0;
 }
 
@@ -104,8 +105,9 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
   design.integral_gain =
       found.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
   const double ripple = found.notch ? found.notch->ripple : 0.0;
-  found.missing_damping_N_s_per_m = missing_damping_N_s_per_m(
-      found.ramped && quiet ? found.left : ripple, mode, plant.mass_kg, design);
+  found.missing_damping_N_s_per_m =
+      missing_damping_N_s_per_m(found.ramped && quiet ? found.left : ripple,
+                                !found.notch.has_value(), mode, plant.mass_kg, design);
   set_waiting(delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * shaping);
   design.reference_keep = filter / (1.0 + filter);

@@ -54,8 +54,7 @@ double default_speed_floor(const scene::Scene& scene, const NominalPlant& plant,
   constexpr double presliding_periods = 3.0;
   const double forgets_m_per_s =
       presliding_m(plant) / (presliding_periods * scales.carrier_period_s);
-  const double highest =
-      0.5 * std::min(fastest_sliding_m_per_s(scene.sliding), scales.velocity_m_per_s);
+  const double highest = 0.5 * std::min(scene.sliding.fastest_m_per_s(), scales.velocity_m_per_s);
   return std::max(control::smallest_speed_floor,
                   std::min(forgets_m_per_s, highest) / scales.velocity_m_per_s);
 }
@@ -155,7 +154,7 @@ double resonant_range_m_per_s(const scene::Scene& scene, const NominalPlant& pla
 template <class Range>
 double set_observed_scales(const scene::Scene& scene, const NominalPlant& plant,
                            const Range& range_m_per_s, ControlDesign& design) {
-  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double fastest_m_per_s = scene.sliding.fastest_m_per_s();
   require_sliding(scene, fastest_m_per_s);
   const double velocity_m_per_s = range_m_per_s(scene, plant);
   const double force_N = scene.sensor.force
@@ -188,7 +187,7 @@ double set_scales(const scene::Scene& scene, const NominalPlant& plant, ControlD
       return set_observed_scales(scene, plant, resonant_range_m_per_s, design);
     case scene::VibrationMode::sensorless: {
       const double displacement_m = set_driven_scales(scene, plant, sensorless_room, design);
-      require_sliding(scene, fastest_sliding_m_per_s(scene.sliding));
+      require_sliding(scene, scene.sliding.fastest_m_per_s());
       return displacement_m;
     }
     case scene::VibrationMode::feedforward:

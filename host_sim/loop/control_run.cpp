@@ -130,7 +130,8 @@ void ControlRun::restore(SnapshotReader& state) {
 void ControlRun::finish() {
   record_.trace_hash = hash_.value();
   record_.signals = port_.signals();
-  if (const std::optional<FrictionBelief> own = port_.friction()) {
+  const std::optional<FrictionBelief> own = port_.friction();
+  if (own && record_.faults.empty()) {  // what a fault came from may have been learnt
     const configure::ControlDesign& design = record_.design;
     record_.friction = {own->friction_force.scaled(design.scales.force_N),
                         own->contact_stiffness.scaled(design.contact_stiffness_N_per_m()),

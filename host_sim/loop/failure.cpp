@@ -47,8 +47,7 @@ Rates rates_in(const scene::Scene& scene, double time_s) {
         time_s *
         std::sqrt((stiffness_N_per_m + scene.friction.contact_stiffness_N_per_m) / mass_kg);
     rates.slide = time_s * scene.friction.contact_stiffness_N_per_m *
-                  configure::fastest_sliding_m_per_s(scene.sliding) /
-                  scene.friction.largest_limit_N();
+                  scene.sliding.fastest_m_per_s() / scene.friction.largest_limit_N();
   }
   return rates;
 }

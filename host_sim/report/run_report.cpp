@@ -335,7 +335,7 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
     text += pause_line(findings.pauses());
   }
   if (result.control->friction) {
-    text += fmt::format("{}; the drive dipped {} times for it\n",
+    text += fmt::format("{}; dips of the drive for it: {}\n",
                         friction_text(*result.control->friction), findings.pauses().pauses);
   }
   for (const loop::FaultEvent& event : result.control->faults) {

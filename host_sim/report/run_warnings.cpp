@@ -134,7 +134,7 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
     std::string text = friction_text(*result.control->friction);
     text.front() = 'F';
     all.push_back(
-        fmt::format("{}. The drive dipped {} times to measure the friction force, {} of the "
+        fmt::format("{}. Dips of the drive to measure the friction force: {}, together {} of the "
                     "time; the table of target steps leaves these periods out.",
                     text, dips.pauses, percent(dips.time_fraction)));
   }

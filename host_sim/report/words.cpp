@@ -45,8 +45,9 @@ std::string friction_text(const loop::FrictionBelief& belief) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", each.value, each.low_95, each.high_95);
   };
   return fmt::format(
-      "friction learnt while driving, with 95 % intervals: Fc {} N, contact stiffness {} N/m, vibration "
-      "{} times the nominal one",
+      "friction learnt while driving, with intervals that hold in 95 % of plants within the assumed errors, "
+      "if their friction stands still: Fc {} N, contact stiffness {} N/m, vibration {} times the nominal "
+      "one",
       figure(belief.friction_force), figure(belief.contact_stiffness), figure(belief.gain));
 }
 

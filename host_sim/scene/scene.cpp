@@ -9,6 +9,14 @@ double Plant::natural_rad_per_s() const {
   return std::sqrt(stiffness_N_per_m / mass_kg);
 }
 
+double Sliding::fastest_m_per_s() const {
+  double fastest = 0.0;
+  for (const SpeedPoint& point : profile) {
+    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
+  }
+  return fastest;
+}
+
 double Friction::largest_limit_N() const {
   const ContactValues& given = *this;
   ContactValues most = given;

@@ -68,6 +68,9 @@ struct SpeedPoint {
 /// Sliding velocity, linear between the points and constant outside them; one point is a constant.
 struct Sliding {
   std::vector<SpeedPoint> profile;
+
+  /// Largest modulus [m/s].
+  double fastest_m_per_s() const;
 };
 
 /// Of the force, with its peak A at phase 0: the square is A up to half a period and -A beyond, the

@@ -56,12 +56,12 @@ class ScalingRegulator : public IntegralRegulator<Scalar, MaxDelay> {
       return;
     }
     pending_ = false;
-    const Scalar believed = scales_ ? velocity_of(target_) : Scalar{};
+    const Scalar nominal = scales_ ? velocity_of(target_) : Scalar{};
     const Scalar found = scales_ ? velocity_of(commanded_) : Scalar{};
-    if (!(Scalar{} < believed && Scalar{} < found)) {
+    if (!(Scalar{} < nominal && Scalar{} < found)) {
       return;  // no drive, nothing to learn
     }
-    const auto part = numeric::quotient(numeric::floating(found), numeric::floating(believed));
+    const auto part = numeric::quotient(numeric::floating(found), numeric::floating(nominal));
     scale_ = numeric::clamp(
         numeric::limited_value(numeric::product(numeric::floating(scale_), part)), least(), most());
     inverse_ = numeric::limited_value(

@@ -63,6 +63,7 @@ class TrackedDahlFeedforward : public DahlFeedforward<ScalarT> {
   using Scalar = ScalarT;
   using Base::Base;
 
+  /// @param friction      Fc that is learnt
   /// @param contact       Kt g, over the nominal one
   /// @param inverse_gain  1/g
   void set_friction(const FrictionLevel<Scalar>& friction, const numeric::Floating<Scalar>& contact,

@@ -69,6 +69,7 @@ class FrictionEstimate {
   const Each& variance() const { return variance_; }
 
   /// Weighs a reading.
+  /// @param reading  its slope, deviation and innovation, by halves
   /// @param wanted  take it in where it shows nothing new, too
   /// @return false: it is not taken in
   bool weigh(const Reading& reading, bool wanted) {

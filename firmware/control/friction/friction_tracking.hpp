@@ -272,7 +272,9 @@ class FrictionTracking {
     contact_ = numeric::product(numeric::product(contact_, exponential_of_twice(moved.stiffness)),
                                 exponential_of_twice(moved.gain));
     inverse_gain_ = numeric::product(inverse_gain_, exponential_of_twice(-moved.gain));
-    taken_at_ = stands_at_;
+    if (!dips_) {  // the request before a dip asks for no other one
+      taken_at_ = stands_at_;
+    }
     phase_ = Phase::adapt;
   }
 

@@ -20,8 +20,8 @@ Scalar third_of_cube(Scalar x) {
   return numeric::rough_product(numeric::rough_product(x, third), numeric::rough_product(x, x));
 }
 
-/// ln(a/b)/2 = u + u³/3, u = (a − b)/(a + b), limited to ±0.6; a + b > 2^-11. Too small by 0.3 % where
-/// a/b is 2, by 0.06 % where it is 1.6.
+/// ln(a/b)/2 = u + u³/3, u = (a − b)/(a + b), u limited to ±0.6; a + b > 2^-11. Too small by at most 0.3 %
+/// where a/b is up to 2, by 0.06 % up to 1.6.
 template <class Scalar>
 Scalar half_log(Scalar a, Scalar b) {
   constexpr Scalar least = numeric::from_real<Scalar>(0x1p-12);

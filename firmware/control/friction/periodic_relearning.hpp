@@ -30,14 +30,15 @@ struct FrictionReading {
   bool followed;     ///< the drive could follow the command
 };
 
-/// What changes with a friction force that is new.
+/// What changes with a friction force that was learnt.
 template <class Scalar>
 struct FrictionChange {
   Scalar target;     ///< friction ratio on base 2
   Scalar commanded;  ///< likewise
   Scalar before;     ///< Fc
-  Scalar reading;    ///< the friction ratio that the target was, in terms of the new Fc
-  bool settling;     ///< false: the loop does not settle
+  Scalar
+      reading;  ///< the friction ratio on base 2 of the force that was the target, over the Fc learnt
+  bool settling;  ///< false: the loop does not settle
 };
 
 /// What parts share that learn the friction while the controller runs.

@@ -125,7 +125,7 @@ double damped_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& 
     }
     return *given_m_per_s;
   }
-  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double fastest_m_per_s = scene.sliding.fastest_m_per_s();
   const double full_scale_m_per_s = room * std::max(full_m_per_s, fastest_m_per_s);
   if (full_scale_m_per_s > most_room * full_m_per_s) {
     const double amplitude =

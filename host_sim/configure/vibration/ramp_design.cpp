@@ -18,7 +18,7 @@ namespace {
 double largest_swing(const scene::Scene& scene, const NominalPlant& plant,
                      const ControlDesign& design, double rotation) {
   constexpr double barely_sliding = 0.95;  // velocity ratio: beyond it a swing is not small
-  const double sliding_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double sliding_m_per_s = scene.sliding.fastest_m_per_s();
   const FrictionReading reading = friction_reading(scene, plant, design.scales.velocity_m_per_s);
   const VibrationMap map = design.vibration_map(design.friction_force * design.scales.force_N);
   double largest = 0.0;
@@ -40,7 +40,7 @@ class DrivenMode {
         damping_(plant.damping_N_s_per_m / plant.mass_kg * period_s),
         ramped_(scene.drive->interpolation == scene::Interpolation::linear),
         parts_(scene.drive->codes_per_period),
-        range_(believed_range(scene)) {}
+        range_(assumed_frequency_range(scene)) {}
 
   const NaturalMode& mode() const { return mode_; }
   double range() const { return range_; }
@@ -96,13 +96,15 @@ std::optional<NotchDesign> chosen_notch(const DrivenMode& driven, double accepte
   std::optional<NotchDesign> best;
   double least = ramp ? 0.5 * by_ramp : by_ramp;
   const auto consider = [&](const std::optional<NotchDesign>& notch) {
-    const bool serves = notch && (!ramp || notch->span() <= longest_beside_a_ramp);
-    const double left = serves ? driven.left(notch) : least;
-    if (left < least) {
+    if (!notch || (ramp && notch->span() > longest_beside_a_ramp)) {
+      return false;
+    }
+    const double left = driven.left(notch);
+    if (left <= accepted || left < least) {
       best = notch;
       least = left;
     }
-    return serves && left <= accepted;
+    return left <= accepted;
   };
   if (!consider(design_notch(driven.mode())) && driven.range() > 0.0) {
     consider(design_robust_notch(driven.mode(), driven.range()));
@@ -119,7 +121,7 @@ Quieting quieting_of(bool ramp, bool notch) {
 
 }  // namespace
 
-double believed_range(const scene::Scene& scene) {
+double assumed_frequency_range(const scene::Scene& scene) {
   constexpr double without_tolerances = 0.01;
   const double range = natural_frequency_range(scene.tolerances);
   return range > 0.0 ? std::min(range, scene::most_shaping_range) : without_tolerances;

@@ -10,11 +10,11 @@
 
 namespace sonoglide::configure {
 
-/// How far the natural frequency that the controller believes may be off, relative: by the tolerances of
+/// How far the nominal natural frequency may be off, relative: by the tolerances of
 /// stiffness and mass; without them 0.01, with which fewer steps of random loops failed to settle than with
 /// 0 or 0.025, whether their stiffness was nominal or up to 5 % off. What [model_error] says is hidden
 /// from a controller, and so from its design.
-double believed_range(const scene::Scene& scene);
+double assumed_frequency_range(const scene::Scene& scene);
 
 /// The free vibration that a change of the amplitude leaves behind, as in FeedforwardDesign.
 struct LeftBehind {

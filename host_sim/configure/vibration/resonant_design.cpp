@@ -51,7 +51,7 @@ struct TargetVelocities {
 
 TargetVelocities target_velocities(const scene::Scene& scene, const NominalPlant& plant,
                                    double most_m_per_s) {
-  const double fastest_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double fastest_m_per_s = scene.sliding.fastest_m_per_s();
   const VibrationMap map{scene::friction_map(scene.friction.law), most_m_per_s,
                          plant.contact_stiffness_N_per_m * most_m_per_s /
                              (start_rate_rad_per_s(scene) * plant.friction_N)};
@@ -240,8 +240,7 @@ double resonant_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant
     return *scene.sensor.vibration_full_scale_m_per_s;
   }
   constexpr double room = 4.0;  // for what feedback may ask for, and for what a knock adds
-  return room *
-         std::max(needed_vibration_m_per_s(scene, plant), fastest_sliding_m_per_s(scene.sliding));
+  return room * std::max(needed_vibration_m_per_s(scene, plant), scene.sliding.fastest_m_per_s());
 }
 
 void require_needed_range(const scene::Scene& scene, const NominalPlant& plant,

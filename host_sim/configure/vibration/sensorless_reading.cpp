@@ -41,7 +41,7 @@ bool slides_backwards(const scene::Sliding& sliding) {
 FrictionReading friction_reading(const scene::Scene& scene, const NominalPlant& plant,
                                  double velocity_m_per_s) {
   const double period_s = 1.0 / scene.drive->frequency_Hz;
-  const double speed_m_per_s = fastest_sliding_m_per_s(scene.sliding);
+  const double speed_m_per_s = scene.sliding.fastest_m_per_s();
   FrictionReading reading;
   reading.speed = speed_m_per_s / velocity_m_per_s;
   const bool dahl = scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl;

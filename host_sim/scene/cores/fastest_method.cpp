@@ -1,6 +1,5 @@
 #include "host_sim/scene/cores/fastest_method.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "firmware/numeric/turn.hpp"
@@ -19,14 +18,6 @@ bool keeps_its_table(const Scene& scene) {
          scene.profile_key() == nullptr && solves(event_gauss, scene.friction.law);
 }
 
-double fastest_sliding_m_per_s(const Sliding& sliding) {
-  double fastest = 0.0;
-  for (const SpeedPoint& point : sliding.profile) {
-    fastest = std::max(fastest, std::abs(point.velocity_m_per_s));
-  }
-  return fastest;
-}
-
 /// Of a spring too soft and a damper too weak to take much of the drive.
 double vibration_m_per_s(const Scene& scene, double inertia_N_per_m, double omega_rad_per_s) {
   return scene.drive_force_N() * omega_rad_per_s /
@@ -41,7 +32,7 @@ bool suits_event_gauss(const Scene& scene) {
       plant.damping_N_s_per_m > 0.1 * plant.mass_kg * omega) {
     return false;
   }
-  const double sliding = fastest_sliding_m_per_s(scene.sliding);
+  const double sliding = scene.sliding.fastest_m_per_s();
   const double vibration = scene.controller ? std::sqrt(2.0) * sliding
                                             : vibration_m_per_s(scene, inertia_N_per_m, omega);
   const double tolerance = scene.solver.tolerance;

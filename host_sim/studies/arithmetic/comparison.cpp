@@ -48,6 +48,12 @@ void require_every_arithmetic(const scene::Scene& scene) {
             "without this key",
             scene::name_of(scene::vibration_controls, *scene.controller->vibration)));
   }
+  if (scene.controller && scene.controller->friction == scene::FrictionSource::tracked) {
+    throw configure::ConfigurationError(
+        "controller.friction",
+        "\"tracked\" is not built in q15, and all arithmetics are compared; allowed: \"trusted\", "
+        "\"calibrated\"");
+  }
 }
 
 Precision precision(const Course& course, const Course& exact) {

@@ -183,7 +183,7 @@ std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
   const scene::Scene scene = fed_forward(stated);
   NaturalModeStudy study;
   study.natural_Hz = scene.plant.natural_rad_per_s() / numeric::two_pi;
-  study.range = configure::believed_range(scene);
+  study.range = configure::assumed_frequency_range(scene);
   study.assumed_range = configure::natural_frequency_range(scene.tolerances) == 0.0;
   study.stiffness_range = 2.0 * study.range;
   study.plants = plants_a_carrier;

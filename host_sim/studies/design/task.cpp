@@ -60,7 +60,7 @@ void require_some_ratio(const std::vector<double>& ratios) {
 }
 
 SpeedRange speeds_of(const scene::Scene& scene, double floor_m_per_s) {
-  const double fastest = configure::fastest_sliding_m_per_s(scene.sliding);
+  const double fastest = scene.sliding.fastest_m_per_s();
   double slowest = fastest;
   double last = scene.sliding.profile.front().velocity_m_per_s;
   for (const scene::SpeedPoint& point : scene.sliding.profile) {

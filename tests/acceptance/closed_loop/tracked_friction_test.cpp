@@ -108,5 +108,21 @@ TEST(TrackedFriction, FollowsAFrictionThatDrifts) {
   EXPECT_GT(part_within(drift, 6e-3), 0.9) << "the others are dips";
 }
 
+TEST(TrackedFriction, DipsOnceForATargetBeyondTheDrive) {
+  const nlohmann::json control =
+      summary_of("target_step",
+                 tracked({"controller.target_friction_ratio=[[0,0.05]]", "run.duration_s=30e-3"}))
+          .at("control");
+  EXPECT_EQ(control.at("steps")[0].at("limit"), "actuator");
+  EXPECT_LE(control.at("relearning").at("pauses"), 2) << "one at the start, one at the limit";
+}
+
+TEST(TrackedFriction, IsNotToldAfterAFault) {
+  const nlohmann::json control =
+      summary_of("target_step", tracked({"sensor.force_gain=-1"})).at("control");
+  EXPECT_FALSE(control.at("faults").empty());
+  EXPECT_FALSE(control.contains("friction"));
+}
+
 }  // namespace
 }  // namespace sonoglide::acceptance::tracked_friction_test

@@ -109,6 +109,10 @@ TEST_F(ArithmeticCommandTest, RefusesWhatItCannotCompare) {
     EXPECT_NE(observing.err.find("controller.vibration: "), std::string::npos) << observing.err;
     EXPECT_NE(observing.err.find(" is not built in q15"), std::string::npos) << observing.err;
   }
+  const Outcome tracked = folder.run("arithmetic '" SONOGLIDE_SCENES
+                                     "/target_step.toml' --set controller.friction=tracked");
+  EXPECT_EQ(tracked.exit_code, 2);
+  EXPECT_NE(tracked.err.find("controller.friction: "), std::string::npos) << tracked.err;
   EXPECT_TRUE(folder.entries().empty());
 }
 

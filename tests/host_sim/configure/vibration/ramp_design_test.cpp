@@ -108,6 +108,18 @@ TEST(RampDesignTest, TwoCodesAPeriodAreNoRampBesideAnOddMultiple) {
   EXPECT_NE(design_of(scene).quieting, Quieting::ramp);
 }
 
+TEST(RampDesignTest, ANotchThatBringsTheSwingIntoTheBandIsTakenThoughItHalvesNothing) {
+  scene::Scene scene = ramped(2.064);
+  scene.drive->codes_per_period = 4;
+  const FeedforwardDesign found = design_of(scene);
+  EXPECT_EQ(found.quieting, Quieting::ramp_and_notch);
+  EXPECT_LE(found.ratio_swing, scene.run.settling_band);
+  scene.controller->shaping = scene::Shaping::none;
+  const FeedforwardDesign bare = design_of(scene);
+  EXPECT_GT(bare.ratio_swing, scene.run.settling_band);
+  EXPECT_LT(bare.left, 2.0 * found.left);
+}
+
 TEST(RampDesignTest, TakesTheShapingThatASceneNames) {
   scene::Scene scene = ramped(2.5);
   scene.controller->shaping = scene::Shaping::none;
