@@ -143,14 +143,12 @@ TEST(PeriodDriveTest, PassesUnderAStiffMode) {
   Scene scene = scene_of(a, Interpolation::linear, 1);
   EXPECT_NEAR(ringing(scene), std::abs(mean_kick(a)), 1e-9);
   const auto steps = [&scene](int held) {
-    std::vector<double> amplitudes_N(1, 1000.0);
-    amplitudes_N.resize(1 + held, 1000.0);
     Watch watch;
     CarrierClock clock(scene);
     RunResult result;
     PlantRun plant(scene, clock, watch, result);
-    for (const double amplitude_N : amplitudes_N) {
-      plant.advance(amplitude_N);
+    for (int period = 0; period <= held; ++period) {
+      plant.advance(1000.0);
       clock.next();
     }
     plant.finish();
