@@ -1,9 +1,13 @@
-"""The environment: by Gymnasium's own checker where it is installed, else by a stand-in for it."""
+"""The environment: by Gymnasium's own checker where it is installed, and rule by rule without it.
+
+The rules are those that the checker of Gymnasium 1.x names, read there and told here in our own words.
+"""
 
 import copy
 import importlib
 import importlib.util
 import inspect
+import itertools
 import sys
 import types
 
@@ -24,17 +28,28 @@ def stand_in():
             self.low, self.high = (numpy.broadcast_to(numpy.asarray(end, dtype), shape) for end in (low, high))
             self.shape, self.dtype = shape, dtype
 
+        def seed(self, seed):
+            self.generator = numpy.random.default_rng(seed)
+
+        def sample(self):
+            return self.generator.uniform(self.low, self.high).astype(self.dtype)
+
         def __contains__(self, value):
             return value.shape == self.shape and value.dtype == self.dtype and bool(
                 numpy.all((value >= self.low) & (value <= self.high)))
 
     class Env:
+        metadata, render_mode, spec, np_random = {}, None, None, None
+
         def __class_getitem__(cls, _):
             return cls
 
         def reset(self, *, seed=None, options=None):
-            if seed is not None or not hasattr(self, "np_random"):
+            if seed is not None or self.np_random is None:
                 self.np_random = numpy.random.default_rng(seed)
+
+        def close(self):
+            pass
 
     module = types.ModuleType("gymnasium")
     module.Env, module.spaces, module.registry = Env, types.SimpleNamespace(Box=Box), {}
@@ -58,6 +73,100 @@ def test_gymnasium_is_content_with_the_environment(environment, scene):
     checker = importlib.import_module("gymnasium.utils.env_checker")
     for name in ("target_step", "noisy_sensor"):
         checker.check_env(gymnasium.make(environment.ENVIRONMENT, scene=scene(name)).unwrapped)
+
+
+RULED = pytest.mark.parametrize("name", ["target_step", "target_step_q15", "noisy_sensor", "damped_step"])
+
+
+def is_observation(value, env):
+    return isinstance(value, numpy.ndarray) and value.dtype == numpy.float32 and value in env.observation_space
+
+
+@RULED
+def test_spaces_are_bounded_boxes_and_the_action_is_normalised(environment, scene, name):
+    env = environment.Loop(scene(name))
+    for space in env.action_space, env.observation_space:
+        assert space.low.shape == space.high.shape == space.shape
+        assert numpy.all(numpy.isfinite(space.low) & numpy.isfinite(space.high) & (space.low < space.high))
+    assert env.action_space.low == 0.0 and env.action_space.high == 1.0
+
+
+def test_seed_and_options_have_defaults_and_nothing_outdated_is_left(environment):
+    reset = inspect.signature(environment.Loop.reset).parameters
+    assert reset["seed"].default is None and reset["options"].default is None
+    assert not hasattr(environment.Loop, "seed")
+
+
+@RULED
+def test_reset_gives_an_observation_and_a_dictionary(environment, scene, name):
+    env = environment.Loop(scene(name))
+    for arguments in {}, {"seed": 123}, {}, {"options": {}}, {"seed": 0, "options": {"any": 1}}:
+        result = env.reset(**arguments)
+        assert isinstance(result, tuple) and len(result) == 2
+        assert is_observation(result[0], env) and isinstance(result[1], dict)
+
+
+@RULED
+def test_the_seed_decides_the_generator_and_the_observations(environment, scene, name):
+    def resets(seed):
+        env = environment.Loop(scene(name))
+        first = env.reset(seed=seed)[0]
+        state = copy.deepcopy(env.np_random.bit_generator.state)
+        return first.tolist(), env.reset()[0].tolist(), state
+
+    assert resets(123) == resets(123)
+    assert resets(123)[2] != resets(456)[2]
+
+
+@RULED
+def test_a_step_is_the_same_again_after_the_same_seed(environment, scene, name):
+    env = environment.Loop(scene(name))
+    env.action_space.seed(123)
+    action = env.action_space.sample()
+
+    def step():
+        env.reset(seed=123)
+        generator = env.np_random
+        result = env.step(action)
+        assert env.np_random is generator
+        return result
+
+    (observation, *first), (again, *second) = step(), step()
+    assert observation.tolist() == again.tolist()
+    assert first == second
+    assert first[2] is False
+
+
+@RULED
+def test_a_step_gives_five_things_of_their_types(environment, scene, name):
+    env = environment.Loop(scene(name))
+    env.reset(seed=1)
+    result = env.step(numpy.array([0.5], numpy.float32))
+    assert isinstance(result, tuple) and len(result) == 5
+    observation, reward, terminated, truncated, info = result
+    assert is_observation(observation, env)
+    assert type(reward) is float and numpy.isfinite(reward)
+    assert type(terminated) is bool and type(truncated) is bool
+    assert isinstance(info, dict)
+
+
+@RULED
+def test_what_was_returned_stays_as_it_was(environment, scene, name):
+    env = environment.Loop(scene(name))
+    action = numpy.array([0.5], numpy.float32)
+    returned = [env.reset(seed=1), *(env.step(action) for _ in range(3)), env.reset()]
+    observations, infos = [result[0] for result in returned], [result[-1] for result in returned]
+    assert not any(numpy.shares_memory(a, b) for a, b in itertools.combinations(observations, 2))
+    assert len({id(info) for info in infos}) == len(infos)
+    assert not any(isinstance(value, (dict, list, numpy.ndarray)) for info in infos for value in info.values())
+    assert action == 0.5
+
+
+def test_no_render_mode_is_declared_and_a_closed_environment_can_be_closed(environment, scene):
+    env = environment.Loop(scene("target_step"))
+    assert env.metadata["render_modes"] == [] and env.render_mode is None
+    env.close()
+    env.close()
 
 
 def test_the_environment_is_registered(environment):
