@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "firmware/app/parameter_labels.hpp"
 #include "firmware/control/controller.hpp"
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/limits/drive_limit.hpp"
@@ -15,27 +16,11 @@
 
 namespace sonoglide::app {
 
-/// The order is that of the link: a new one goes to the end. The store knows them by name.
-enum class Parameter : std::uint8_t {
-  target,          ///< friction ratio from reset on; 1 is no drive
-  drive_limit,     ///< highest amplitude, of the actuator's limit
-  gain_scale,      ///< feedback, of the designed gain; 0 leaves feedforward alone
-  friction_force,  ///< believed Fc, of the sensor's full scale; a calibration overrides it
-  speed_floor,     ///< of the peak vibration velocity at full drive
-  stuck_periods,   ///< for which a reading may stand still; the design's is the least
-  start_on_power,  ///< 1: a unit whose parameters are whole drives from power-on
-  host_timeout,    ///< seconds for which the host may be silent while the unit drives; 0: for ever
-  bad_samples,     ///< of the last 32 samples so many may be unusable; the drive then stands
-};
-
-inline constexpr std::size_t parameter_count = 9;
-
 /// The number of samples among which bad_samples counts.
 inline constexpr std::uint8_t sample_window = 32;
 
-/// Presets of host_timeout, in milliseconds, by who talks to the unit.
-inline constexpr std::uint32_t timeout_of_link = 100;
-inline constexpr std::uint32_t timeout_of_console = 0;  ///< nobody types ten times a second
+/// Preset of host_timeout for a host that asks at least ten times a second.
+inline constexpr std::uint32_t default_timeout_ms = 100;
 
 /// Value of each parameter, in units of its last decimal place.
 using ParameterValues = std::array<std::uint32_t, parameter_count>;
@@ -47,11 +32,8 @@ enum class Inheritance : std::uint8_t {
   higher,  ///< the higher one of the stored value and the value compiled in
 };
 
-/// A parameter as the console and the link show it.
-struct ParameterInfo {
-  const char* name;
-  const char* unit;  ///< as it stands after a number: " s", or nothing
-  std::uint8_t decimal_places;
+/// What values a parameter may have under a design.
+struct ParameterRange {
   Inheritance inheritance;
   std::uint32_t lowest;
   std::uint32_t highest;
@@ -64,24 +46,16 @@ struct ParameterInfo {
     const std::uint32_t least = inheritance == Inheritance::higher ? preset : lowest;
     return inheritance == Inheritance::none ? preset : numeric::clamp(value, least, highest);
   }
-
-  /// CRC-32 of name, unit and decimal places. By it the store finds the parameter in any list.
-  constexpr std::uint32_t identity() const {
-    encoding::Crc32 sum;
-    add(name, sum);
-    add(unit, sum);
-    sum.add(decimal_places);
-    return sum.value();
-  }
-
- private:
-  /// With the zero at its end, so that "ab", "c" is not "a", "bc".
-  static constexpr void add(const char* text, encoding::Crc32& sum) {
-    do {
-      sum.add(static_cast<std::uint8_t>(*text));
-    } while (*text++ != '\0');
-  }
 };
+
+/// ParameterLabel::identity of each parameter, computed before.
+inline constexpr std::array<std::uint32_t, parameter_count> parameter_identities = [] {
+  std::array<std::uint32_t, parameter_count> result{};
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    result[i] = parameter_labels[i].identity();
+  }
+  return result;
+}();
 
 inline constexpr std::uint32_t one_in_millionths = 1'000'000;
 
@@ -146,45 +120,41 @@ class FieldDesign {
   /// @param design       number of the design: of a store that was written under another, only
   ///                     the limits are taken, and the unit waits to be told.
   /// @param period_s     of the loop, which a step answers; above 1e-6 s.
-  /// @param timeout_ms   host_timeout as compiled in: timeout_of_link or timeout_of_console.
+  /// @param timeout_ms   host_timeout as compiled in: 0: a silent host is borne for ever.
   constexpr FieldDesign(const Designed& designed, Scalar half_target, std::uint32_t design,
                         double period_s, std::uint32_t timeout_ms)
       : designed_(designed),
-        infos_{{
-            {"target", "", 6, Inheritance::none, 0, one_in_millionths,
+        ranges_{{
+            {Inheritance::none, 0, one_in_millionths,
              millionths(2.0 * numeric::to_real(half_target))},
-            {"drive_limit", "", 6, Inheritance::value, 0, one_in_millionths, one_in_millionths},
-            {"gain_scale", "", 6, Inheritance::value, 0, one_in_millionths, one_in_millionths},
-            {"friction_force", "", 6, Inheritance::none, smallest_friction(), one_in_millionths,
+            {Inheritance::value, 0, one_in_millionths, one_in_millionths},
+            {Inheritance::value, 0, one_in_millionths, one_in_millionths},
+            {Inheritance::none, smallest_friction(), one_in_millionths,
              millionths(numeric::to_real(designed.friction_force))},
-            {"speed_floor", "", 6, Inheritance::higher, millionths(control::smallest_speed_floor),
-             one_in_millionths, millionths(numeric::to_real(designed.speed_floor))},
-            {"stuck_periods", "", 0, Inheritance::none, designed.stuck.periods, UINT16_MAX,
-             designed.stuck.periods},
-            {"start_on_power", "", 0, Inheritance::value, 0, 1, 0},
-            {"host_timeout", " s", 3, Inheritance::value, 0, longest_timeout_ms, timeout_ms},
-            {"bad_samples", "", 0, Inheritance::none, 0, sample_window - 1, 0},
+            {Inheritance::higher, millionths(control::smallest_speed_floor), one_in_millionths,
+             millionths(numeric::to_real(designed.speed_floor))},
+            {Inheritance::none, designed.stuck.periods, UINT16_MAX, designed.stuck.periods},
+            {Inheritance::value, 0, 1, 0},
+            {Inheritance::value, 0, longest_timeout_ms, timeout_ms},
+            {Inheritance::none, 0, sample_window - 1, 0},
         }},
-        identities_(identities(infos_)),
         half_target_(half_target),
         design_(number(design)),
         periods_per_ms_(numeric::round_half_up<std::uint32_t>(1e-3 / period_s * one_in_fraction)) {}
 
-  constexpr const ParameterInfo& info(std::size_t parameter) const { return infos_[parameter]; }
-  /// ParameterInfo::identity, computed before.
-  constexpr std::uint32_t identity(std::size_t parameter) const { return identities_[parameter]; }
+  constexpr const ParameterRange& range(std::size_t parameter) const { return ranges_[parameter]; }
 
   constexpr ParameterValues presets() const {
     ParameterValues values{};
     for (std::size_t i = 0; i < parameter_count; ++i) {
-      values[i] = infos_[i].preset;
+      values[i] = ranges_[i].preset;
     }
     return values;
   }
 
   constexpr bool allows(const ParameterValues& values) const {
     for (std::size_t i = 0; i < parameter_count; ++i) {
-      if (!infos_[i].allows(values[i])) {
+      if (!ranges_[i].allows(values[i])) {
         return false;
       }
     }
@@ -245,7 +215,7 @@ class FieldDesign {
 
   /// A friction ratio in millionths as controllers take it, on base 2; the designed target exactly.
   constexpr Scalar half_target(std::uint32_t millionths) const {
-    return millionths == infos_[static_cast<std::size_t>(Parameter::target)].preset
+    return millionths == ranges_[static_cast<std::size_t>(Parameter::target)].preset
                ? half_target_
                : fraction<Scalar>(millionths, 2 * one_in_millionths);
   }
@@ -280,36 +250,25 @@ class FieldDesign {
   }
 
   constexpr bool changed(const ParameterValues& values, Parameter parameter) const {
-    return value(values, parameter) != infos_[static_cast<std::size_t>(parameter)].preset;
-  }
-
-  using Infos = std::array<ParameterInfo, parameter_count>;
-
-  static constexpr std::array<std::uint32_t, parameter_count> identities(const Infos& infos) {
-    std::array<std::uint32_t, parameter_count> result{};
-    for (std::size_t i = 0; i < parameter_count; ++i) {
-      result[i] = infos[i].identity();
-    }
-    return result;
+    return value(values, parameter) != ranges_[static_cast<std::size_t>(parameter)].preset;
   }
 
   constexpr std::uint32_t number(std::uint32_t design) const {
     encoding::Crc32 sum;
     sum.add_word(design);
-    for (const std::uint32_t identity : identities_) {
+    for (const std::uint32_t identity : parameter_identities) {
       sum.add_word(identity);
     }
-    for (const ParameterInfo& info : infos_) {
-      sum.add_word(info.lowest);
-      sum.add_word(info.highest);
-      sum.add_word(info.preset);
+    for (const ParameterRange& range : ranges_) {
+      sum.add_word(range.lowest);
+      sum.add_word(range.highest);
+      sum.add_word(range.preset);
     }
     return sum.value();
   }
 
   Designed designed_;
-  Infos infos_;
-  std::array<std::uint32_t, parameter_count> identities_;
+  std::array<ParameterRange, parameter_count> ranges_;
   Scalar half_target_;
   std::uint32_t design_;
   std::uint32_t periods_per_ms_;  ///< of the loop, with 16 fraction bits

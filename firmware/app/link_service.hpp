@@ -182,7 +182,7 @@ class LinkService {
       set.ratio = request.ratio;
       answer(set);
     } else {
-      refuse_value(request.kind, unit_.info(Parameter::target));
+      refuse_value(request.kind, unit_.range(Parameter::target));
     }
   }
 
@@ -191,10 +191,10 @@ class LinkService {
       refuse_parameter(request.kind);
       return;
     }
-    const ParameterInfo& info = unit_.info(request.parameter);
-    answer(link::ParameterValue{request.parameter, info.decimal_places,
-                                unit_.value(request.parameter), info.lowest, info.highest,
-                                info.preset});
+    const ParameterRange& range = unit_.range(request.parameter);
+    answer(link::ParameterValue{
+        request.parameter, parameter_labels[request.parameter].decimal_places,
+        unit_.value(request.parameter), range.lowest, range.highest, range.preset});
   }
 
   void carry_out(const link::WriteParameter& request) {
@@ -204,7 +204,7 @@ class LinkService {
         saving_ = request.kind;
         break;
       case Answer::out_of_range:
-        refuse_value(request.kind, unit_.info(request.parameter));
+        refuse_value(request.kind, unit_.range(request.parameter));
         break;
       case Answer::unknown_parameter:
         refuse_parameter(request.kind);
@@ -263,8 +263,8 @@ class LinkService {
 
   // ---- Answers ----
 
-  void refuse_value(std::uint8_t kind, const ParameterInfo& info) {
-    refuse(kind, link::Reason::out_of_range, info.lowest, info.highest);
+  void refuse_value(std::uint8_t kind, const ParameterRange& range) {
+    refuse(kind, link::Reason::out_of_range, range.lowest, range.highest);
   }
 
   void refuse_parameter(std::uint8_t kind) {

@@ -26,7 +26,7 @@ struct NoService {
 /// @tparam Board     see hal/board.hpp: sample, drive and period.
 /// @tparam Watchdog  see there; hal::NoWatchdog is none.
 /// @tparam Service   a class with serve(), which does a bounded piece of work without waiting:
-///                   LinkService, Console; NoService is none.
+///                   LinkService; NoService is none.
 template <class SupervisorT, class Board, class Watchdog, class Service>
 class TimedLoop {
   static_assert(hal::keeps_periods<Board>,

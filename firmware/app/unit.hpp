@@ -1,4 +1,4 @@
-/// A controller in the field: what may be asked of it, over a link or a console.
+/// A controller in the field: what its host may ask of it.
 #pragma once
 
 #include <cstddef>
@@ -96,7 +96,7 @@ class Unit {
   /// In force from the next carrier period on, until reset.
   /// @param ratio  friction ratio, millionths.
   Answer set_target(std::uint32_t ratio) {
-    if (!info(Parameter::target).allows(ratio)) {
+    if (!range(Parameter::target).allows(ratio)) {
       return Answer::out_of_range;
     }
     target_ = ratio;
@@ -107,9 +107,9 @@ class Unit {
   /// Friction ratio, millionths.
   std::uint32_t target() const { return target_; }
 
-  const ParameterInfo& info(std::size_t parameter) const { return design_.info(parameter); }
-  const ParameterInfo& info(Parameter parameter) const {
-    return info(static_cast<std::size_t>(parameter));
+  const ParameterRange& range(std::size_t parameter) const { return design_.range(parameter); }
+  const ParameterRange& range(Parameter parameter) const {
+    return range(static_cast<std::size_t>(parameter));
   }
   std::uint32_t value(std::size_t parameter) const { return values_[parameter]; }
   std::uint32_t value(Parameter parameter) const {
@@ -122,7 +122,7 @@ class Unit {
     if (parameter >= parameter_count) {
       return Answer::unknown_parameter;
     }
-    if (!info(parameter).allows(value)) {
+    if (!range(parameter).allows(value)) {
       return Answer::out_of_range;
     }
     if (supervisor_.driving()) {
@@ -164,7 +164,7 @@ class Unit {
   bool take_all() {
     ParameterValues stored{};
     for (std::size_t i = 0; i < parameter_count; ++i) {
-      if (!store_.find(design_.identity(i), stored[i])) {
+      if (!store_.find(parameter_identities[i], stored[i])) {
         return false;
       }
     }
@@ -176,8 +176,8 @@ class Unit {
   void take_limits() {
     for (std::size_t i = 0; i < parameter_count; ++i) {
       std::uint32_t stored = 0;
-      if (store_.find(design_.identity(i), stored)) {
-        values_[i] = info(i).inherited(stored);
+      if (store_.find(parameter_identities[i], stored)) {
+        values_[i] = range(i).inherited(stored);
       }
     }
   }
@@ -200,7 +200,7 @@ class Unit {
   void save() {
     typename Store::Record record{};
     for (std::size_t i = 0; i < parameter_count; ++i) {
-      record[i] = {design_.identity(i), pending_[i]};
+      record[i] = {parameter_identities[i], pending_[i]};
     }
     store_.save(record);
     save_periods_left_ = design_.save_periods();

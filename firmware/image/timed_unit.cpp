@@ -1,12 +1,12 @@
-// The image of one scene's controller on a board that keeps its own time, with a console on its
-// serial line; both are chosen when the image is built.
+// The image of one scene's controller on a board that keeps its own time, with a link to its host
+// on the serial line; both are chosen when the image is built.
 #include SONOGLIDE_BOARD_HEADER
 
 #include <cstdint>
 
 #include "controller_configuration.hpp"
-#include "firmware/app/console.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 
@@ -19,10 +19,13 @@ namespace configuration = app::configuration;
 /// Of the loop; the carrier is derived from the same clock.
 constexpr double period_s = Hardware::carriers_per_period * configuration::carrier_period_s;
 
+/// The time of an emulator is not that of the host: none would be a silence.
+constexpr std::uint32_t timeout_ms = 0;
+
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
                                                         configuration::target_steps[0].half_ratio,
                                                         configuration::design, period_s,
-                                                        app::timeout_of_console);
+                                                        timeout_ms);
 
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
@@ -35,9 +38,9 @@ int main() {
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
   app::Unit unit(design, flash);
-  app::Console console(unit, bytes);
+  app::LinkService service(unit, bytes);
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
-  app::TimedLoop loop(unit.supervisor(), board, watchdog, console);
+  app::TimedLoop loop(unit.supervisor(), board, watchdog, service);
   while (loop.serve()) {
   }
   return 0;

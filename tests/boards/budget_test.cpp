@@ -181,11 +181,11 @@ TEST_P(FeatureTest, LeavesNothingInAnImageWithoutIt) {
   }
 }
 
-TEST_P(FeatureTest, LeavesLinkStoreAndConsoleToUnitsThatHaveThem) {
+TEST_P(FeatureTest, LeavesLinkAndStoreToUnitsThatHaveThem) {
   const ImageParts parts = measure_feature_scene(GetParam(), "every_part").parts;
   for (const auto& [file, bytes] : parts.files) {
-    for (const char* service : {"encoding/", "app/link", "app/store/", "app/console", "app/unit",
-                                "app/host_ramp", "app/stop_word", "app/typed_ahead"}) {
+    for (const char* service :
+         {"encoding/", "app/link", "app/store/", "app/unit", "app/host_ramp"}) {
       EXPECT_EQ(file.find(service), std::string::npos) << file;
     }
   }

@@ -1,4 +1,5 @@
-// Units on their board's own timer, talked to on their console. The emulator's time is that of its
+// Units on their board's own timer, talked to by the host program over a serial
+// device. The emulator's time is that of its
 // instructions, so that whether a step is done in time does not depend on the machine.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -17,12 +19,17 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/unit/console.hpp"
+#include "host_sim/unit/serial_port.hpp"
+#include "host_sim/unit/unit_link.hpp"
 #include "monitor.hpp"
 #include "tested_boards.hpp"
+#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
 
 namespace sonoglide::emulated::timed_unit_test {
 namespace {
 
+using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 struct TimedBoard {
@@ -53,39 +60,49 @@ std::vector<std::string> emulate(const std::string& board, const std::string& im
   return command;
 }
 
-/// A terminal on a unit's console. What goes wrong is thrown.
+/// A person at the host program, and the unit at the other end of a serial device. What goes wrong is
+/// thrown.
 class Terminal {
  public:
+  using Lines = std::vector<std::string>;
+
   explicit Terminal(std::vector<std::string> command)
-      : typed_(process::make_pipe()),
-        shown_(process::make_pipe()),
+      : to_board_(process::make_pipe()),
+        from_board_(process::make_pipe()),
+        port_(device_.device()),
         emulator_(with_monitor(std::move(command)),
-                  {typed_.read_end.number(), shown_.write_end.number(), STDERR_FILENO}, SIGKILL) {
-    shown_.write_end.close();
+                  {to_board_.read_end.number(), from_board_.write_end.number(), STDERR_FILENO},
+                  SIGKILL),
+        relay_(device_, from_board_.read_end.number(), to_board_.write_end.number()) {
+    from_board_.write_end.close();
   }
 
-  void await_greeting() {
-    while (next_line() != "sonoglide") {
-    }
+  /// Until the unit answers.
+  void connect() {
+    wait_for([this] {
+      try {
+        link_.emplace(port_);
+      } catch (const process::ProcessError&) {
+        return false;
+      }
+      return true;
+    });
+    console_.emplace(*link_);
   }
+
+  /// @return the answer
+  Lines lines(const std::string& line) { return console_->carry_out(line); }
 
   /// @return the first line of the answer
-  std::string type(const std::string& line) {
-    const std::string typed = line + "\r";
-    if (write(typed_.write_end.number(), typed.data(), typed.size()) < 0) {
-      throw std::runtime_error("the board cannot be written to");
-    }
-    return next_line();
-  }
+  std::string type(const std::string& line) { return lines(line).at(0); }
 
+  /// A line of an image that has no link.
   std::string next_line() {
     std::string line;
-    for (char character = '\0'; character != '\n';) {
-      if (!receive(character)) {
-        throw std::runtime_error("the emulator has ended");
-      }
-      if (' ' <= character) {
-        line += character;
+    for (std::uint8_t byte = 0; byte != '\n';) {
+      wait_for([&] { return port_.receive(&byte, 1, 100ms) > 0; });
+      if (' ' <= byte) {
+        line += static_cast<char>(byte);
       }
     }
     return line;
@@ -93,38 +110,46 @@ class Terminal {
 
   std::uint32_t word(std::uint32_t address) { return monitor_.word(address); }
 
+  /// The target is until reset.
   void reset() {
+    type("target 0.123");
     monitor_.request_reset();
-    await_greeting();
+    wait_for([&] { return type("status").find("target 0.123,") == std::string::npos; });
   }
 
   /// Waits for the emulator to end by itself.
   /// @return its status as of waitpid
   int await_end() {
-    for (char character = '\0'; receive(character);) {
-    }
+    wait_for([this] { return relay_.ended(); });
     return emulator_.wait();
   }
 
  private:
+  template <class Condition>
+  static void wait_for(const Condition& condition) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (!condition()) {
+      if (end < std::chrono::steady_clock::now()) {
+        throw std::runtime_error("the emulator hangs");
+      }
+    }
+  }
+
   std::vector<std::string> with_monitor(std::vector<std::string> command) const {
     const std::vector<std::string> more = monitor_.arguments();
     command.insert(command.end(), more.begin(), more.end());
     return command;
   }
 
-  /// @return false at the end
-  bool receive(char& character) {
-    if (!process::wait_for_input(shown_.read_end.number(), 60s)) {
-      throw std::runtime_error("the emulator hangs");
-    }
-    return read(shown_.read_end.number(), &character, 1) == 1;
-  }
-
   Monitor monitor_;
-  process::Pipe typed_;
-  process::Pipe shown_;
+  process::Pipe to_board_;
+  process::Pipe from_board_;
+  unit::PseudoTerminal device_;
+  unit::SerialPort port_;
   process::ChildProcess emulator_;
+  unit::Relay relay_;
+  std::optional<unit::UnitLink> link_;
+  std::optional<unit::Console> console_;
 };
 
 /// What an answer says after a word: of "drive" in "..., drive 0.25, ...", "0.25".
@@ -137,17 +162,8 @@ std::string said(const std::string& answer, const std::string& word) {
   return answer.substr(begin, answer.find(',', begin) - begin);
 }
 
-/// The parameters' lines; the last one is that of bad_samples.
-std::vector<std::string> parameters(Terminal& terminal) {
-  std::vector<std::string> lines{terminal.type("params")};
-  while (lines.back().rfind("bad_samples", 0) != 0) {
-    lines.push_back(terminal.next_line());
-  }
-  return lines;
-}
-
 void expect_settled(Terminal& terminal, double target) {
-  terminal.type("status");  // an answer takes a hundred periods
+  terminal.type("status");  // an answer takes more than fifty periods
   const std::string status = terminal.type("status");
   EXPECT_EQ(said(status, "fault"), "none") << status;
   EXPECT_NE(status.find(", settled,"), std::string::npos) << status;
@@ -166,7 +182,7 @@ class TimedUnit : public testing::TestWithParam<TimedBoard> {
   static bool saves() { return GetParam().saved_parameters != nullptr; }
 
   static void start(Terminal& terminal) {
-    terminal.await_greeting();
+    terminal.connect();
     start_told(terminal);
   }
 
@@ -175,13 +191,13 @@ class TimedUnit : public testing::TestWithParam<TimedBoard> {
       terminal.type("confirm");
     }
     const std::string status = terminal.type("restart");
-    EXPECT_EQ(said(status, "fault"), "none") << status;
+    EXPECT_EQ(status.find("state "), 0U) << status;
   }
 };
 
 TEST_P(TimedUnit, IsOffFromPowerOnAndSaysWhy) {
   Terminal terminal(at_speed(GetParam().speed));
-  terminal.await_greeting();
+  terminal.connect();
   for (int i = 0; i < 2; ++i) {
     const std::string status = terminal.type("status");
     EXPECT_EQ(said(status, "drive"), "0") << status;
@@ -205,7 +221,7 @@ TEST_P(TimedUnit, HoldsTheTargetThatIsTyped) {
   const std::string status = terminal.type("target 0.7");
   EXPECT_EQ(said(status, "target"), "0.7");
   expect_settled(terminal, 0.7);
-  EXPECT_EQ(terminal.type("faults"),
+  EXPECT_EQ(terminal.type("log"),
             is_held_off() ? "period 0: parameters_lost" : "faults since reset: 0");
 }
 
@@ -216,8 +232,10 @@ TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
   EXPECT_EQ(terminal.type("target -0.1"), "target: allowed is 0 to 1");
   EXPECT_EQ(terminal.type("set gain_scale 2"), "gain_scale: allowed is 0 to 1");
   EXPECT_EQ(terminal.type("set gain_scale 0.5"), "stop the drive first");
-  EXPECT_EQ(terminal.type("set gain 0.5"), "unknown; params lists what there is");
-  const std::vector<std::string> lines = parameters(terminal);
+  EXPECT_EQ(terminal.type("set gain 0.5"),
+            "unknown parameter; there are: target, drive_limit, gain_scale, friction_force, "
+            "speed_floor, stuck_periods, start_on_power, host_timeout, bad_samples");
+  const std::vector<std::string> lines = terminal.lines("params");
   ASSERT_EQ(lines.size(), 9U);
   EXPECT_EQ(lines[0], "target 0.4, compiled in 0.4; allowed is 0 to 1");
   EXPECT_EQ(lines[2], "gain_scale 1, compiled in 1; allowed is 0 to 1");
@@ -237,15 +255,15 @@ TEST_P(TimedUnit, StopsAndRestartsOnRequestAlone) {
 
 TEST_P(TimedUnit, KeepsSavedParametersAsFarAsItsBoardCan) {
   Terminal terminal(at_speed(GetParam().speed));
-  terminal.await_greeting();
-  EXPECT_EQ(terminal.type("set gain_scale 0.5"),
-            saves() ? "gain_scale 0.5, saved" : "gain_scale 1 stands; not saved");
-  EXPECT_EQ(terminal.type("set start_on_power 1"),
-            saves() ? "start_on_power 1, saved" : "start_on_power 0 stands; not saved");
+  terminal.connect();
+  const std::string not_saved =
+      "not saved: the flash of the unit took nothing; the old value stands";
+  EXPECT_EQ(terminal.type("set gain_scale 0.5"), saves() ? "gain_scale 0.5, saved" : not_saved);
+  EXPECT_EQ(terminal.type("set start_on_power 1"), saves() ? "start_on_power 1, saved" : not_saved);
   terminal.reset();
   const std::string origin = saves() ? GetParam().saved_parameters : GetParam().parameters;
   EXPECT_EQ(said(terminal.type("status"), "parameters"), origin);
-  EXPECT_EQ(said(parameters(terminal)[2], "gain_scale"), origin == "stored" ? "0.5" : "1");
+  EXPECT_EQ(said(terminal.lines("params")[2], "gain_scale"), origin == "stored" ? "0.5" : "1");
   if (origin == "stored") {
     expect_settled(terminal, 0.4);
   } else {
@@ -256,7 +274,7 @@ TEST_P(TimedUnit, KeepsSavedParametersAsFarAsItsBoardCan) {
 // An answer takes more carrier periods than a thousandth of a second and the ramp.
 TEST_P(TimedUnit, LosesItsDriveToASilentHostAsFarAsItsBoardSavesATimeout) {
   Terminal terminal(at_speed(GetParam().speed));
-  terminal.await_greeting();
+  terminal.connect();
   terminal.type("set host_timeout 0.001");
   start_told(terminal);
   terminal.type("status");
@@ -279,17 +297,16 @@ TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
     EXPECT_EQ(said(status, "state"), "fault") << status;
     EXPECT_EQ(said(status, "drive"), "0") << status;
     EXPECT_EQ(said(status, "fault"), "overrun") << status;
-    std::string entry = terminal.type("faults");
+    const std::vector<std::string> log = terminal.lines("log");
+    const std::uint32_t before = is_held_off() ? 1 : 0;
+    ASSERT_EQ(log.size(), faults + before + 1);
     for (std::uint32_t listed = 0; listed < faults; ++listed) {
-      EXPECT_NE(entry.find(": overrun"), std::string::npos) << entry;
-      entry = terminal.next_line();
+      EXPECT_NE(log[listed].find(": overrun"), std::string::npos) << log[listed];
     }
-    const bool lost_at_first = is_held_off();
-    if (lost_at_first) {
-      EXPECT_EQ(entry, "period 0: parameters_lost");
-      entry = terminal.next_line();
+    if (is_held_off()) {
+      EXPECT_EQ(log[faults], "period 0: parameters_lost");
     }
-    EXPECT_EQ(entry, "faults since reset: " + std::to_string(faults + (lost_at_first ? 1 : 0)));
+    EXPECT_EQ(log.back(), "faults since reset: " + std::to_string(faults + before));
     terminal.type("restart");
   }
 }
@@ -342,7 +359,7 @@ class TimedUnitWatchdog : public testing::TestWithParam<const char*> {};
 
 TEST_P(TimedUnitWatchdog, IsFedByAUnitInTime) {
   Terminal terminal(ended_by_watchdog(emulate(GetParam(), "target_step_timed", 5)));
-  terminal.await_greeting();
+  terminal.connect();
   terminal.type("restart");
   for (int i = 0; i < 5; ++i) {
     expect_settled(terminal, 0.4);  // 60 ms each, of the board's time

@@ -6,7 +6,7 @@
 #
 # leaves build/BOARD/bin/<name of FOLDER>.elf, in lockstep with its host over semihosting, and
 # <name of FOLDER>_serial.elf, over a serial line; and <name of FOLDER>_timed.elf, on the board's own
-# timer, with a console. After configure --plant there is also <name of FOLDER>_plant.elf, which needs
+# timer, with a link. After configure --plant there is also <name of FOLDER>_plant.elf, which needs
 # neither host nor hardware. A toolchain file without a board compiles the core alone.
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)

@@ -8,7 +8,7 @@
 namespace sonoglide::acceptance {
 
 /// What it takes to run a command to its end.
-enum class Effort { instant, seconds, minutes, emulator };
+enum class Effort { instant, seconds, minutes, emulator, device };
 
 struct Command {
   std::string name;                  ///< behind that of its group, where it is in one
@@ -42,6 +42,7 @@ inline const std::vector<Command> command_table = {
      {},
      {"summary.json"},
      Effort::emulator},
+    {"connect", "", "measured.csv", {"--quiet"}, "", {}, {}, Effort::device},
     {"configure",
      "closed.toml",
      "",

@@ -26,9 +26,11 @@ using Entries = std::vector<std::string>;
 std::vector<Command> commands_here() {
   constexpr bool has_emulators = SONOGLIDE_BOARD_TESTS != 0;
   std::vector<Command> found;
-  std::copy_if(
-      command_table.begin(), command_table.end(), std::back_inserter(found),
-      [](const Command& each) { return has_emulators || each.effort != Effort::emulator; });
+  std::copy_if(command_table.begin(), command_table.end(), std::back_inserter(found),
+               [](const Command& each) {
+                 return each.effort != Effort::device &&
+                        (has_emulators || each.effort != Effort::emulator);
+               });
   return found;
 }
 

@@ -60,11 +60,12 @@ TEST(UsageTest, SeveralComeInTheirOrder) {
 }
 
 TEST(UsageTest, AnUnknownCommandIsNamed) {
-  expect_refused("swep a.toml",
-                 "swep is no command; did you mean sweep?\n"
-                 "a.toml is no command; allowed: run, pil, configure, ratio, sweep, robust, "
-                 "paper, work-precision, stability, arithmetic, design, identify, fmu, schema, "
-                 "completion");
+  expect_refused(
+      "swep a.toml",
+      "swep is no command; did you mean sweep?\n"
+      "a.toml is no command; allowed: run, pil, connect, configure, ratio, sweep, "
+      "robust, paper, work-precision, stability, arithmetic, design, identify, fmu, schema, "
+      "completion");
 }
 
 TEST(UsageTest, ValuesThatLookLikeOptionsAreValues) {

@@ -49,7 +49,7 @@ class FieldParametersTest : public testing::Test {
                                         {},
                                         {}};
   static constexpr double period_s = 1.0 / 60e3;
-  static constexpr Design design{designed, real(1.0 / 6.0), 1, period_s, timeout_of_link};
+  static constexpr Design design{designed, real(1.0 / 6.0), 1, period_s, default_timeout_ms};
 
   static ParameterValues with(Parameter parameter, std::uint32_t value) {
     ParameterValues values = design.presets();
@@ -138,7 +138,7 @@ TEST(ParameterIdentity, StaysWhatItWas) {
                                                      0xF9CE71CD, 0x89D3878E, 0x053AC4F5,
                                                      0xC774790D, 0x57351E83, 0x09F1B95E};
   for (std::size_t i = 0; i < parameter_count; ++i) {
-    EXPECT_EQ(field_design.identity(i), identities[i]) << field_design.info(i).name;
+    EXPECT_EQ(parameter_identities[i], identities[i]) << parameter_labels[i].name;
   }
   EXPECT_EQ(field_design.design(), 0x9822E9D7U);
 }
@@ -148,22 +148,23 @@ TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {
   EXPECT_TRUE(tested.allows(tested.presets()));
   int lower_ends = 0;
   for (std::size_t i = 0; i < parameter_count; ++i) {
-    const ParameterInfo& info = tested.info(i);
-    EXPECT_LE(info.lowest, info.preset) << info.name;
-    EXPECT_LE(info.preset, info.highest) << info.name;
+    const ParameterRange& range = tested.range(i);
+    const char* const name = parameter_labels[i].name;
+    EXPECT_LE(range.lowest, range.preset) << name;
+    EXPECT_LE(range.preset, range.highest) << name;
     const auto parameter = static_cast<Parameter>(i);
-    EXPECT_TRUE(tested.allows(this->with(parameter, info.lowest))) << info.name;
-    EXPECT_TRUE(tested.allows(this->with(parameter, info.highest))) << info.name;
-    EXPECT_FALSE(tested.allows(this->with(parameter, info.highest + 1))) << info.name;
-    if (info.lowest > 0) {
-      EXPECT_FALSE(tested.allows(this->with(parameter, info.lowest - 1))) << info.name;
+    EXPECT_TRUE(tested.allows(this->with(parameter, range.lowest))) << name;
+    EXPECT_TRUE(tested.allows(this->with(parameter, range.highest))) << name;
+    EXPECT_FALSE(tested.allows(this->with(parameter, range.highest + 1))) << name;
+    if (range.lowest > 0) {
+      EXPECT_FALSE(tested.allows(this->with(parameter, range.lowest - 1))) << name;
       ++lower_ends;
     }
   }
   EXPECT_GE(lower_ends, 1);
   // No allowed friction force is too small for the controller.
   const auto smallest =
-      tested.controller_parameters(this->with(Parameter::friction_force, tested.info(3).lowest));
+      tested.controller_parameters(this->with(Parameter::friction_force, tested.range(3).lowest));
   EXPECT_FALSE(smallest.friction_force < control::FrictionLevel<TypeParam>::smallest());
 }
 
@@ -174,42 +175,38 @@ TYPED_TEST(FieldParametersTest, AnotherDesignHasAnotherNumber) {
   const auto target = this->real(1.0 / 6.0);
   const std::set<std::uint32_t> numbers{
       TestFixture::design.design(),
-      Other(TestFixture::designed, target, 2, TestFixture::period_s, timeout_of_link).design(),
-      Other(TestFixture::designed, this->real(0.2), 1, TestFixture::period_s, timeout_of_link)
+      Other(TestFixture::designed, target, 2, TestFixture::period_s, default_timeout_ms).design(),
+      Other(TestFixture::designed, this->real(0.2), 1, TestFixture::period_s, default_timeout_ms)
           .design(),
-      Other(TestFixture::designed, target, 1, TestFixture::period_s, timeout_of_console).design(),
-      Other(other, target, 1, TestFixture::period_s, timeout_of_link).design()};
+      Other(TestFixture::designed, target, 1, TestFixture::period_s, 0).design(),
+      Other(other, target, 1, TestFixture::period_s, default_timeout_ms).design()};
   EXPECT_EQ(numbers.size(), 5U);
 }
 
-TYPED_TEST(FieldParametersTest, AParameterIsKnownByNameUnitAndPlaces) {
-  const auto& tested = TestFixture::design;
+TEST(ParameterIdentity, IsOfNameUnitAndPlaces) {
   std::set<std::uint32_t> identities;
   for (std::size_t i = 0; i < parameter_count; ++i) {
-    EXPECT_EQ(tested.identity(i), tested.info(i).identity());
-    identities.insert(tested.identity(i));
+    EXPECT_EQ(parameter_identities[i], parameter_labels[i].identity());
+    identities.insert(parameter_identities[i]);
   }
   EXPECT_EQ(identities.size(), parameter_count);
-  ParameterInfo info = tested.info(0);
-  info.lowest = 5;
-  info.preset = 7;
-  EXPECT_EQ(info.identity(), tested.identity(0));
-  info.decimal_places = 3;
-  identities.insert(info.identity());
-  info.unit = " s";
-  identities.insert(info.identity());
-  info.name = "target ";
-  info.unit = "s";
-  identities.insert(info.identity());
+  ParameterLabel label = parameter_labels[0];
+  label.decimal_places = 3;
+  identities.insert(label.identity());
+  label.unit = " s";
+  identities.insert(label.identity());
+  label.name = "target ";
+  label.unit = "s";
+  identities.insert(label.identity());
   EXPECT_EQ(identities.size(), parameter_count + 3);
   // CRC-32 of "drive_limit", 0, 0, 6: the store's format.
-  EXPECT_EQ(tested.identity(1), 0x13371804U);
+  EXPECT_EQ(parameter_identities[1], 0x13371804U);
 }
 
 TYPED_TEST(FieldParametersTest, OfAnotherDesignOnlyLimitsAreInherited) {
   const auto& tested = TestFixture::design;
   const auto inherited = [&](Parameter parameter, std::uint32_t stored) {
-    return tested.info(static_cast<std::size_t>(parameter)).inherited(stored);
+    return tested.range(static_cast<std::size_t>(parameter)).inherited(stored);
   };
   EXPECT_EQ(inherited(Parameter::drive_limit, 200000), 200000U);
   EXPECT_EQ(inherited(Parameter::drive_limit, UINT32_MAX), 1000000U);
@@ -228,7 +225,7 @@ TYPED_TEST(FieldParametersTest, TheTimeoutIsCountedInCarrierPeriods) {
   using Other = typename TestFixture::Design;
   const auto periods = [](double period, std::uint32_t timeout_ms) {
     const Other other(TestFixture::designed, TestFixture::real(1.0 / 6.0), 1, period,
-                      timeout_of_link);
+                      default_timeout_ms);
     return other.timeout_periods(TestFixture::with(Parameter::host_timeout, timeout_ms));
   };
   EXPECT_EQ(periods(1.0 / 60e3, 0), 0U);
@@ -265,13 +262,13 @@ void expect_drive_within_its_limit() {
       {},
       {}};
   static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1, 1.0 / 60e3,
-                                             timeout_of_link);
+                                             default_timeout_ms);
 
   ParameterValues values{};
   for (std::size_t i = 0; i < parameter_count; ++i) {
-    const ParameterInfo& info = design.info(i);
-    values[i] = *rc::gen::oneOf(rc::gen::just(info.lowest), rc::gen::just(info.highest),
-                                rc::gen::inRange(info.lowest, info.highest));
+    const ParameterRange& range = design.range(i);
+    values[i] = *rc::gen::oneOf(rc::gen::just(range.lowest), rc::gen::just(range.highest),
+                                rc::gen::inRange(range.lowest, range.highest));
   }
   const auto parameters = design.controller_parameters(values);
   typename FieldDesign<Parts>::Controller controller(parameters);

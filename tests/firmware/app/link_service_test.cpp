@@ -216,13 +216,13 @@ TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
   PoweredUnit powered(flash);
   for (std::uint8_t i = 0; i < parameter_count; ++i) {
     const auto told = powered.ask<link::ParameterValue>(link::ReadParameter{i});
-    const ParameterInfo& info = field_design.info(i);
+    const ParameterRange& range = field_design.range(i);
     EXPECT_EQ(told.parameter, i);
-    EXPECT_EQ(told.decimal_places, info.decimal_places);
-    EXPECT_EQ(told.value, info.preset);
-    EXPECT_EQ(told.lowest, info.lowest);
-    EXPECT_EQ(told.highest, info.highest);
-    EXPECT_EQ(told.preset, info.preset);
+    EXPECT_EQ(told.decimal_places, parameter_labels[i].decimal_places);
+    EXPECT_EQ(told.value, range.preset);
+    EXPECT_EQ(told.lowest, range.lowest);
+    EXPECT_EQ(told.highest, range.highest);
+    EXPECT_EQ(told.preset, range.preset);
   }
   for (const int unknown : {9, 10, 255}) {
     const auto parameter = static_cast<std::uint8_t>(unknown);
@@ -275,10 +275,10 @@ TEST(LinkServiceTest, AValueOutOfRangeIsRefusedByItsRangeAndChangesNothing) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
   for (std::uint8_t i = 0; i < parameter_count; ++i) {
-    const ParameterInfo& info = field_design.info(i);
-    expect_refusal(powered.answer_to(link::WriteParameter{i, info.highest + 1}),
-                   link::WriteParameter::kind, Reason::out_of_range, info.lowest, info.highest);
-    EXPECT_EQ(powered.ask<link::ParameterValue>(link::ReadParameter{i}).value, info.preset);
+    const ParameterRange& range = field_design.range(i);
+    expect_refusal(powered.answer_to(link::WriteParameter{i, range.highest + 1}),
+                   link::WriteParameter::kind, Reason::out_of_range, range.lowest, range.highest);
+    EXPECT_EQ(powered.ask<link::ParameterValue>(link::ReadParameter{i}).value, range.preset);
   }
   EXPECT_EQ(flash.operations(), 0);
 }
@@ -659,7 +659,7 @@ void expect_drives(PoweredUnit& powered) {
   EXPECT_LE(powered.board.latest_drive().amplitude, numeric::to_code(0.12) + 1);
 }
 
-constexpr FieldDesign<Parts> other_design(designed, 0.2F, 2, carrier_period_s, timeout_of_link);
+constexpr FieldDesign<Parts> other_design(designed, 0.2F, 2, carrier_period_s, default_timeout_ms);
 
 TEST(LinkServiceTest, UnderAnotherDesignLimitsHoldAndTheUnitWaitsToBeTold) {
   SimulatedFlash flash = limited_flash();
@@ -844,7 +844,7 @@ RC_GTEST_PROP(LinkServiceTest, AnyRequestIsAnsweredAndNoneHarms, ()) {
   RC_ASSERT(!flash.misused());
   RC_ASSERT(powered.watchdog.feeds == static_cast<int>(powered.unit.supervisor().periods()));
   for (std::size_t i = 0; i < parameter_count; ++i) {
-    RC_ASSERT(powered.unit.info(i).allows(powered.unit.value(i)));
+    RC_ASSERT(powered.unit.range(i).allows(powered.unit.value(i)));
   }
 }
 

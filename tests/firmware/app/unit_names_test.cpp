@@ -86,7 +86,7 @@ TEST(UnitCodes, OfTheParametersAreThoseOfTheReference) {
                                "start_on_power", "host_timeout", "bad_samples"};
   static_assert(std::size(names) == parameter_count);
   for (std::size_t i = 0; i < parameter_count; ++i) {
-    EXPECT_EQ(field_design.info(i).name, names[i]);
+    EXPECT_EQ(parameter_labels[i].name, names[i]);
   }
   EXPECT_EQ(static_cast<int>(Parameter::target), 0);
   EXPECT_EQ(static_cast<int>(Parameter::drive_limit), 1);

@@ -1,9 +1,8 @@
 // A unit on a board that is nothing but registers: what a port links, for its size and symbols.
-// WITH_LINK or WITH_CONSOLE adds that service; without either there is the controller alone.
+// WITH_LINK adds that service; without it there is the controller alone.
 #include <cstdint>
 
 #include "controller_configuration.hpp"
-#include "firmware/app/console.hpp"
 #include "firmware/app/field_parameters.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/supervisor.hpp"
@@ -71,23 +70,14 @@ template <class Supervisor, class Service>
 }  // namespace
 
 int main() {
-#if defined(WITH_LINK) || defined(WITH_CONSOLE)
 #ifdef WITH_LINK
-  constexpr std::uint32_t timeout = app::timeout_of_link;
-#else
-  constexpr std::uint32_t timeout = app::timeout_of_console;
-#endif
   static constexpr app::FieldDesign<configuration::Parts> design(
       configuration::parameters, configuration::target_steps[0].half_ratio, configuration::design,
-      configuration::carrier_period_s, timeout);
+      configuration::carrier_period_s, app::default_timeout_ms);
   Flash flash;
   ByteLink bytes;
   app::Unit unit(design, flash);
-#ifdef WITH_LINK
   app::LinkService service(unit, bytes);
-#else
-  app::Console service(unit, bytes);
-#endif
   run(unit.supervisor(), service);
 #else
   app::Supervisor<sonoglide::control::Controller<configuration::Parts> > supervisor(

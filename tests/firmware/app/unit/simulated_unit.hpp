@@ -41,7 +41,7 @@ inline constexpr control::Controller<Parts>::Parameters designed = [] {
 }();
 inline constexpr double carrier_period_s = 1.0 / 60e3;
 inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1, carrier_period_s,
-                                                 timeout_of_link);
+                                                 default_timeout_ms);
 
 /// A Coulomb contact under a board whose drive comes into force with each carrier period.
 class TimedBoard {

@@ -1,0 +1,275 @@
+#include "host_sim/unit/console.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cstdint>
+#include <sstream>
+
+#include "firmware/app/parameter_labels.hpp"
+#include "firmware/app/unit_names.hpp"
+#include "firmware/encoding/decimal.hpp"
+#include "host_sim/process/printable.hpp"
+
+namespace sonoglide::unit {
+namespace {
+
+using app::parameter_labels;
+using std::chrono_literals::operator""s;
+
+/// A save may take 10 s in the unit.
+constexpr std::chrono::milliseconds patience_of_a_save = 12s;
+
+constexpr const char* help_text =
+    "status, target RATIO, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+
+std::string decimal(std::uint32_t value, int places) {
+  std::array<char, encoding::most_decimal_characters> text{};
+  return {text.data(), encoding::write_decimal(value, places, text.data())};
+}
+
+std::string millionths_of_code(std::int32_t code) {
+  const auto scaled = static_cast<std::uint64_t>(code) * 1'000'000;
+  return decimal(static_cast<std::uint32_t>((scaled + (1U << 30)) >> 31), 6);
+}
+
+bool read_value(const std::string& text, int places, std::uint32_t& value) {
+  return encoding::read_decimal(text.data(), text.size(), places, value);
+}
+
+std::size_t parameter_named(const std::string& name) {
+  std::size_t i = 0;
+  while (i < app::parameter_count && name != parameter_labels[i].name) {
+    ++i;
+  }
+  return i;
+}
+
+std::string text_of(const link::ParameterValue& value) {
+  const app::ParameterLabel& label = parameter_labels[value.parameter];
+  const auto number = [&](std::uint32_t count) { return decimal(count, value.decimal_places); };
+  return fmt::format("{} {}, compiled in {}; allowed is {} to {}{}", label.name,
+                     number(value.value), number(value.preset), number(value.lowest),
+                     number(value.highest), label.unit);
+}
+
+std::string text_of(const link::Telemetry& told) {
+  std::string text = fmt::format("state {}, target {}, drive {}, limit {}",
+                                 control::name(static_cast<control::State>(told.state)),
+                                 decimal(told.target, 6), millionths_of_code(told.amplitude),
+                                 control::name(static_cast<control::Limit>(told.limit)));
+  if (const auto settling = static_cast<control::Settling>(told.settling);
+      settling != control::Settling::pending) {
+    text += fmt::format(", {}", control::name(settling));
+  }
+  if (told.mismatch > 0) {
+    text += ", nominal/true friction " + decimal(told.mismatch, 3);
+  }
+  text += fmt::format(", fault {}, parameters {}, period {}", app::fault_name(told.fault),
+                      app::name(static_cast<store::Origin>(told.parameters)), told.period);
+  if (told.lost_frames > 0) {
+    text += fmt::format(", frames lost {}", told.lost_frames);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> Console::carry_out(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) {
+    words.push_back(word);
+  }
+  const std::string command = words.empty() ? "" : words[0];
+  switch (words.size()) {
+    case 0:
+      return {};
+    case 1:
+      if (command == "status") {
+        return status();
+      }
+      if (command == "stop") {
+        return stop();
+      }
+      if (command == "restart") {
+        return restart();
+      }
+      if (command == "confirm") {
+        return confirm();
+      }
+      if (command == "log") {
+        return log();
+      }
+      if (command == "params") {
+        return list_parameters();
+      }
+      if (command == "help") {
+        return {help_text};
+      }
+      break;
+    case 2:
+      if (command == "target") {
+        return set_target(words[1]);
+      }
+      if (command == "params") {
+        return list_parameter(words[1]);
+      }
+      break;
+    case 3:
+      if (command == "set") {
+        return set_parameter(words[1], words[2]);
+      }
+      break;
+    default:
+      break;
+  }
+  return refuse(fmt::format("unknown; there are: {}", help_text));
+}
+
+std::string Console::tell_news() {
+  const link::Telemetry told = telemetry();
+  const bool is_new = told.fault != 0 && told.fault != told_fault_;
+  told_fault_ = told.fault;
+  return is_new ? fmt::format("fault {}", app::fault_name(told.fault)) : "";
+}
+
+Console::Lines Console::status() {
+  const link::Telemetry told = telemetry();
+  told_fault_ = told.fault;
+  return {text_of(told)};
+}
+
+Console::Lines Console::set_target(const std::string& text) {
+  constexpr auto target = static_cast<std::size_t>(app::Parameter::target);
+  std::uint32_t ratio = 0;
+  if (!read_value(text, parameter_labels[target].decimal_places, ratio)) {
+    ratio = UINT32_MAX;  // the unit names its range
+  }
+  const auto result = unit_.ask<link::TargetSet>(link::SetTarget{ratio});
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    return refuse(*refusal, target);
+  }
+  return status();
+}
+
+Console::Lines Console::stop() {
+  unit_.ask<link::Stopped>(link::Stop{});
+  return status();
+}
+
+Console::Lines Console::restart() {
+  const auto result = unit_.ask<link::Restarted>(link::Restart{});
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    return refuse(*refusal, 0);
+  }
+  return status();
+}
+
+Console::Lines Console::confirm() {
+  const auto result = unit_.ask<link::Confirmed>(link::Confirm{}, patience_of_a_save);
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    if (refusal->reason == static_cast<std::uint8_t>(link::Reason::not_saved)) {
+      return {"parameters confirmed until reset; not saved"};
+    }
+    return refuse(*refusal, 0);
+  }
+  return {"parameters confirmed, saved"};
+}
+
+Console::Lines Console::log() {
+  Lines lines;
+  std::uint32_t count = 0;
+  for (std::uint8_t age = 0; age < UINT8_MAX; ++age) {
+    const auto result = unit_.ask<link::LoggedFault>(link::ReadFault{age});
+    const auto* fault = std::get_if<link::LoggedFault>(&result);
+    if (fault == nullptr) {
+      break;
+    }
+    lines.push_back(fmt::format("period {}: {}", fault->period, app::fault_name(fault->fault)));
+    count = fault->count;
+  }
+  lines.push_back(fmt::format("faults since reset: {}", count));
+  return lines;
+}
+
+Console::Lines Console::list_parameters() {
+  Lines lines;
+  for (const app::ParameterLabel& label : parameter_labels) {
+    const Lines line = list_parameter(label.name);
+    lines.insert(lines.end(), line.begin(), line.end());
+  }
+  return lines;
+}
+
+Console::Lines Console::list_parameter(const std::string& name) {
+  const std::size_t parameter = parameter_named(name);
+  const auto result =
+      unit_.ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)});
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    return refuse(*refusal, parameter);
+  }
+  return {text_of(std::get<link::ParameterValue>(result))};
+}
+
+Console::Lines Console::set_parameter(const std::string& name, const std::string& text) {
+  const std::size_t parameter = parameter_named(name);
+  std::uint32_t value = UINT32_MAX;  // the unit names its range
+  if (parameter < app::parameter_count) {
+    read_value(text, parameter_labels[parameter].decimal_places, value);
+  }
+  link::WriteParameter request{};
+  request.parameter = static_cast<std::uint8_t>(parameter);
+  request.value = value;
+  const auto result = unit_.ask<link::ParameterWritten>(request, patience_of_a_save);
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    return refuse(*refusal, parameter);
+  }
+  return {fmt::format("{} {}, saved", name,
+                      decimal(std::get<link::ParameterWritten>(result).value,
+                              parameter_labels[parameter].decimal_places))};
+}
+
+link::Telemetry Console::telemetry() {
+  return std::get<link::Telemetry>(unit_.ask<link::Telemetry>(link::ReadTelemetry{}));
+}
+
+Console::Lines Console::refuse(const std::string& reason) {
+  ++refused_;
+  return {reason};
+}
+
+Console::Lines Console::refuse(const link::Refusal& refusal, std::size_t parameter) {
+  switch (static_cast<link::Reason>(refusal.reason)) {
+    case link::Reason::out_of_range: {
+      const app::ParameterLabel& label = parameter_labels[parameter];
+      return refuse(fmt::format("{}: allowed is {} to {}{}", label.name,
+                                decimal(refusal.lowest, label.decimal_places),
+                                decimal(refusal.highest, label.decimal_places), label.unit));
+    }
+    case link::Reason::unknown_parameter: {
+      std::vector<std::string> names;
+      for (const app::ParameterLabel& label : parameter_labels) {
+        names.emplace_back(label.name);
+      }
+      return refuse(fmt::format("unknown parameter; there are: {}", fmt::join(names, ", ")));
+    }
+    case link::Reason::drive_not_stopped:
+      return refuse("stop the drive first");
+    case link::Reason::not_saved:
+      return refuse("not saved: the flash of the unit took nothing; the old value stands");
+    case link::Reason::parameters_not_confirmed:
+      return refuse("see params, then confirm them or set one");
+    case link::Reason::overtaken_by_fault:
+      return refuse("not done: a fault came first");
+    case link::Reason::unknown_request:
+    case link::Reason::wrong_length:
+    case link::Reason::no_such_fault:
+    case link::Reason::out_of_turn:
+      break;
+  }
+  return refuse(fmt::format("refused by the unit, reason {}", refusal.reason));
+}
+
+}  // namespace sonoglide::unit

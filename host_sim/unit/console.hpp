@@ -1,0 +1,54 @@
+/// The commands by which a person talks to a unit.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host_sim/unit/unit_link.hpp"
+
+namespace sonoglide::unit {
+
+/// Each line is a command; what the unit answers is put in words.
+class Console {
+ public:
+  /// @param unit  outlives this
+  explicit Console(UnitLink& unit) : unit_(unit) {}
+
+  /// Carries out a command: `help` lists them. An empty line does nothing.
+  /// @return the lines of the answer
+  /// @throws process::ProcessError  the unit does not answer
+  std::vector<std::string> carry_out(const std::string& line);
+
+  /// A sign of life to the unit.
+  /// @return a line on each new fault that it finds, else nothing
+  /// @throws process::ProcessError  the unit does not answer
+  std::string tell_news();
+
+  /// Commands that were refused, here or by the unit.
+  std::size_t refused() const { return refused_; }
+
+ private:
+  using Lines = std::vector<std::string>;
+
+  Lines status();
+  Lines set_target(const std::string& text);
+  Lines stop();
+  Lines restart();
+  Lines confirm();
+  Lines log();
+  Lines list_parameters();
+  Lines list_parameter(const std::string& name);
+  Lines set_parameter(const std::string& name, const std::string& text);
+
+  link::Telemetry telemetry();
+  Lines refuse(const std::string& reason);
+  /// @param parameter  of the value that was asked for
+  Lines refuse(const link::Refusal& refusal, std::size_t parameter);
+
+  UnitLink& unit_;
+  std::size_t refused_ = 0;
+  unsigned told_fault_ = 0;
+};
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,73 @@
+#include "host_sim/unit/serial_port.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "host_sim/process/printable.hpp"
+
+namespace sonoglide::unit {
+
+using std::chrono_literals::operator""ms;
+
+SerialPort::SerialPort(const std::string& device)
+    : device_(device),
+      // Without waiting for a modem's carrier.
+      line_(open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+  if (line_.number() < 0) {
+    fail(std::strerror(errno));
+  }
+  termios settings{};
+  if (tcgetattr(line_.number(), &settings) != 0) {
+    fail("is no serial line");
+  }
+  cfmakeraw(&settings);
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+  settings.c_cflag |= CLOCAL | CREAD;
+  cfsetspeed(&settings, B115200);
+  if (tcsetattr(line_.number(), TCSANOW, &settings) != 0) {
+    fail(std::strerror(errno));
+  }
+  tcflush(line_.number(), TCIFLUSH);
+}
+
+void SerialPort::send(const std::uint8_t* bytes, std::size_t size) {
+  while (size > 0) {
+    pollfd room{line_.number(), POLLOUT, 0};
+    if (poll(&room, 1, 1000) == 0) {
+      fail("takes nothing");
+    }
+    const ssize_t count = write(line_.number(), bytes, size);
+    if (count < 0 && errno != EAGAIN && errno != EINTR) {
+      fail(std::strerror(errno));
+    }
+    const auto sent = static_cast<std::size_t>(count < 0 ? 0 : count);
+    bytes += sent;
+    size -= sent;
+  }
+}
+
+std::size_t SerialPort::receive(std::uint8_t* bytes, std::size_t size,
+                                std::chrono::milliseconds limit) {
+  if (!process::wait_for_input(line_.number(), limit)) {
+    return 0;
+  }
+  const ssize_t count = read(line_.number(), bytes, size);
+  if (count > 0) {
+    return static_cast<std::size_t>(count);
+  }
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
+    return 0;
+  }
+  fail(count == 0 ? "was closed at its other end" : std::strerror(errno));
+}
+
+void SerialPort::fail(const std::string& reason) const {
+  throw process::ProcessError(process::printable(device_) + ": " + reason);
+}
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,76 @@
+#include "host_sim/unit/unit_link.hpp"
+
+#include <random>
+
+#include "host_sim/process/printable.hpp"
+
+namespace sonoglide::unit {
+namespace {
+
+using std::chrono::steady_clock;
+
+std::uint16_t any_number() {
+  return static_cast<std::uint16_t>(std::random_device{}());
+}
+
+}  // namespace
+
+// A number at random is hardly ever that of the last host, whose answer would come again.
+UnitLink::UnitLink(SerialPort& port) : port_(port), sequence_(any_number()) {
+  ask<link::Telemetry>(link::ReadTelemetry{});
+}
+
+link::Frame UnitLink::exchange(link::Frame request, std::chrono::milliseconds patience) {
+  constexpr int tries = 3;
+  request.sequence = ++sequence_;
+  for (int i = 0; i < tries; ++i) {
+    const link::WireFrame wire = link::encode(request);
+    port_.send(wire.bytes.data(), wire.size);
+    link::Frame answer;
+    if (!receive(request.sequence, patience, answer)) {
+      continue;
+    }
+    link::Refusal refusal{};
+    const bool out_of_turn = link::read(answer, refusal) &&
+                             refusal.reason == static_cast<std::uint8_t>(link::Reason::out_of_turn);
+    if (!out_of_turn) {
+      return answer;
+    }
+    sequence_ = static_cast<std::uint16_t>(refusal.highest + 1);
+    request.sequence = sequence_;
+  }
+  if (other_version_) {
+    fail("speaks another version of the link: its firmware is not of this program");
+  }
+  fail(heard_bytes_ ? "answers, but not as a unit does" : "does not answer");
+}
+
+bool UnitLink::receive(std::uint16_t sequence, std::chrono::milliseconds patience,
+                       link::Frame& answer) {
+  const auto end = steady_clock::now() + patience;
+  while (true) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(end - steady_clock::now());
+    if (left.count() <= 0) {
+      return false;
+    }
+    // Byte by byte, so that what follows the answer is there for the next.
+    std::uint8_t byte = 0;
+    if (port_.receive(&byte, 1, left) == 0) {
+      continue;
+    }
+    heard_bytes_ = true;
+    const link::Reception reception = decoder_.take(byte);
+    other_version_ |= reception == link::Reception::wrong_version;
+    if (reception == link::Reception::frame && decoder_.frame().sequence == sequence) {
+      answer = decoder_.frame();
+      return true;
+    }
+  }
+}
+
+void UnitLink::fail(const std::string& reason) const {
+  throw process::ProcessError(process::printable(port_.device()) + ": " + reason);
+}
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,57 @@
+/// Requests to a unit and its answers.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "firmware/link/frame.hpp"
+#include "firmware/link/messages.hpp"
+#include "host_sim/unit/serial_port.hpp"
+
+namespace sonoglide::unit {
+
+/// The host's end of the framed link (firmware/link). One request at a time.
+class UnitLink {
+ public:
+  /// Asks the unit for its telemetry, so that a silent or foreign device is told at once.
+  /// @param port  outlives this
+  /// @throws process::ProcessError  the device answers nothing, or nothing that a unit says
+  explicit UnitLink(SerialPort& port);
+
+  template <class Answer>
+  using Result = std::variant<Answer, link::Refusal>;
+
+  /// @param patience  how long the unit may take; then the request is sent again, twice
+  /// @throws process::ProcessError  no answer came
+  template <class Answer, class Request>
+  Result<Answer> ask(const Request& request, std::chrono::milliseconds patience = usual_patience) {
+    const link::Frame frame = exchange(link::frame_of(request, 0), patience);
+    Answer answer{};
+    if (link::read(frame, answer)) {
+      return answer;
+    }
+    link::Refusal refusal{};
+    if (!link::read(frame, refusal)) {
+      fail("answers with a frame of another kind");
+    }
+    return refusal;
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds usual_patience{400};
+
+  /// @return the answer to the request, whatever sequence number the latter has
+  link::Frame exchange(link::Frame request, std::chrono::milliseconds patience);
+  bool receive(std::uint16_t sequence, std::chrono::milliseconds patience, link::Frame& answer);
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  SerialPort& port_;
+  link::FrameDecoder decoder_;
+  std::uint16_t sequence_;
+  bool heard_bytes_ = false;
+  bool other_version_ = false;
+};
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,212 @@
+/// A person at the host program and a unit at the other end of a serial device.
+#include "host_sim/unit/console.hpp"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "firmware/app/link_service.hpp"
+#include "firmware/app/timed_loop.hpp"
+#include "host_sim/unit/serial_port.hpp"
+#include "host_sim/unit/unit_link.hpp"
+#include "tests/firmware/app/unit/simulated_unit.hpp"
+#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
+
+namespace sonoglide::unit::console_test {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// A byte link of a unit, on the other end of a pseudo-terminal.
+class TerminalLink {
+ public:
+  explicit TerminalLink(const PseudoTerminal& terminal) : number_(terminal.number()) {}
+  bool receive(std::uint8_t& byte) {
+    pollfd there{number_, POLLIN, 0};
+    return poll(&there, 1, 0) > 0 && read(number_, &byte, 1) == 1;
+  }
+  bool send(std::uint8_t byte) { return write(number_, &byte, 1) == 1; }
+
+ private:
+  int number_;
+};
+
+/// Serves a piece of a device's work again and again, on a thread.
+class Device {
+ public:
+  explicit Device(std::function<void()> serve)
+      : thread_([this, serve = std::move(serve)] {
+          while (!over_) {
+            serve();
+          }
+        }) {}
+  ~Device() {
+    over_ = true;
+    thread_.join();
+  }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+ private:
+  std::atomic<bool> over_{false};
+  std::thread thread_;
+};
+
+/// A unit that is served as fast as the machine can, and so has no time of its own.
+class ServedUnit {
+ public:
+  explicit ServedUnit(const PseudoTerminal& terminal) : link_(terminal) {}
+
+ private:
+  static constexpr app::FieldDesign<app::Parts> design_{app::designed, 0.2F, 1,
+                                                        app::carrier_period_s, 0};
+  app::SimulatedFlash flash_;
+  app::TestedUnit unit_{design_, flash_};
+  app::TimedBoard board_;
+  app::CountingWatchdog watchdog_;
+  TerminalLink link_;
+  app::LinkService<app::TestedUnit, TerminalLink> service_{unit_, link_};
+  app::TimedLoop<app::TestedUnit::Supervisor, app::TimedBoard, app::CountingWatchdog,
+                 app::LinkService<app::TestedUnit, TerminalLink>>
+      loop_{unit_.supervisor(), board_, watchdog_, service_};
+  Device served_{[this] {
+    loop_.serve();
+    board_.in_force.clear();
+  }};
+};
+
+class ConsoleTest : public testing::Test {
+ protected:
+  Lines ask(const std::string& line) { return console_.carry_out(line); }
+  std::string line_of(const std::string& line) { return ask(line).at(0); }
+
+  PseudoTerminal terminal_;
+  ServedUnit served_{terminal_};
+  SerialPort port_{terminal_.device()};
+  UnitLink link_{port_};
+  Console console_{link_};
+};
+
+TEST_F(ConsoleTest, StartsStopsAndSaysHowTheUnitIs) {
+  EXPECT_EQ(line_of("status").find("state off, target 0.4, drive 0, limit none, fault none, "
+                                   "parameters blank, period "),
+            0U);
+  ask("restart");
+  std::string status = line_of("status");
+  for (int i = 0; i < 10 && status.find(", settled,") == std::string::npos; ++i) {
+    status = line_of("status");
+  }
+  EXPECT_EQ(status.find("state running, target 0.4, drive 0.17"), 0U) << status;
+  EXPECT_NE(status.find(", settled, nominal/true friction 1"), std::string::npos) << status;
+  EXPECT_EQ(line_of("target 0.7").find("state running, target 0.7,"), 0U);
+  EXPECT_EQ(line_of("set drive_limit 0.8"), "stop the drive first");
+  EXPECT_EQ(line_of("stop").find("state off, target 0.7, drive 0,"), 0U);
+  EXPECT_EQ(ask("log"), (Lines{"faults since reset: 0"}));
+  EXPECT_EQ(console_.refused(), 1U);
+}
+
+TEST_F(ConsoleTest, ReadsAndWritesParametersByName) {
+  const Lines all = ask("params");
+  ASSERT_EQ(all.size(), app::parameter_count);
+  EXPECT_EQ(all[1], "drive_limit 1, compiled in 1; allowed is 0 to 1");
+  EXPECT_EQ(all[7], "host_timeout 0, compiled in 0; allowed is 0 to 60 s");
+  EXPECT_EQ(line_of("set drive_limit 0.8"), "drive_limit 0.8, saved");
+  EXPECT_EQ(ask("params drive_limit"),
+            (Lines{"drive_limit 0.8, compiled in 1; allowed is 0 to 1"}));
+  EXPECT_EQ(line_of("set host_timeout 0.25"), "host_timeout 0.25, saved");
+  EXPECT_EQ(console_.refused(), 0U);
+}
+
+TEST_F(ConsoleTest, NamesWhatIsAllowed) {
+  EXPECT_EQ(line_of("target 1.5"), "target: allowed is 0 to 1");
+  EXPECT_EQ(line_of("target -0.5"), "target: allowed is 0 to 1");
+  EXPECT_EQ(line_of("set host_timeout 61"), "host_timeout: allowed is 0 to 60 s");
+  EXPECT_EQ(line_of("set stuck_periods 9.5"), "stuck_periods: allowed is 10 to 65535");
+  EXPECT_EQ(line_of("set gain 1").find("unknown parameter; there are: target, drive_limit,"), 0U);
+  EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
+  const std::string commands =
+      "status, target RATIO, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+  EXPECT_EQ(line_of("help"), commands);
+  for (const char* unknown : {"go", "target", "stop now", "set a", "set a 1 2"}) {
+    EXPECT_EQ(line_of(unknown), "unknown; there are: " + commands) << unknown;
+  }
+  EXPECT_EQ(console_.refused(), 11U);
+  EXPECT_EQ(ask("  "), Lines{});
+}
+
+// Each host begins with a number of its own, and none is told what another one was told.
+TEST_F(ConsoleTest, ANewHostFindsTheUnitThatAnOlderOneLeft) {
+  ask("target 0.6");
+  for (int i = 0; i < 5; ++i) {
+    UnitLink link(port_);
+    Console console(link);
+    EXPECT_EQ(console.carry_out("status").at(0).find("state off, target 0.6,"), 0U);
+  }
+}
+
+std::string failure_at(const std::string& device) {
+  try {
+    SerialPort port(device);
+    UnitLink link(port);
+  } catch (const process::ProcessError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(UnitLinkTest, SaysWhatIsNoUnit) {
+  EXPECT_EQ(failure_at("/dev/nowhere"), "/dev/nowhere: No such file or directory");
+  EXPECT_EQ(failure_at("/dev/null"), "/dev/null: is no serial line");
+  const PseudoTerminal silent;
+  EXPECT_EQ(failure_at(silent.device()), silent.device() + ": does not answer");
+}
+
+TEST(UnitLinkTest, KnowsAForeignDeviceByWhatItSays) {
+  const PseudoTerminal terminal;
+  const std::string text = "login: ";
+  const Device device([&] {
+    EXPECT_GT(write(terminal.number(), text.data(), text.size()), 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  });
+  EXPECT_EQ(failure_at(terminal.device()), terminal.device() + ": answers, but not as a unit does");
+}
+
+TEST(UnitLinkTest, KnowsAUnitOfAnotherVersion) {
+  const PseudoTerminal terminal;
+  // Version 1 of the protocol, kind, sequence number, checksum: as a unit of old would say it.
+  const std::vector<std::uint8_t> bytes = [] {
+    encoding::Crc32 sum;
+    const std::vector<std::uint8_t> content = {1, 0x81, 1, 1};
+    for (const std::uint8_t byte : content) {
+      sum.add(byte);
+    }
+    std::vector<std::uint8_t> wire(20);
+    encoding::CobsEncoder stuffing(&wire[1]);
+    for (const std::uint8_t byte : content) {
+      stuffing.add(byte);
+    }
+    for (int i = 0; i < 4; ++i) {
+      stuffing.add(static_cast<std::uint8_t>(sum.value() >> (8 * i)));
+    }
+    wire.resize(1 + stuffing.finish() + 1);
+    return wire;
+  }();
+  const Device device([&] {
+    EXPECT_GT(write(terminal.number(), bytes.data(), bytes.size()), 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  });
+  EXPECT_EQ(failure_at(terminal.device()),
+            terminal.device() +
+                ": speaks another version of the link: its firmware is not of this program");
+}
+
+}  // namespace
+}  // namespace sonoglide::unit::console_test
