@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/emulated/controller_header.hpp"

@@ -9,7 +9,6 @@
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/program.hpp"
 #include "host_sim/process/checksum.hpp"
-#include "host_sim/process/child_process.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/changes.hpp"
 #include "host_sim/scene_file/document.hpp"
@@ -118,23 +117,6 @@ void publish(const std::filesystem::path& out, const output::StudyReport& report
   if (!quiet) {
     fmt::print("{}report: {}\n", report.text, process::printable((out / "report.html").string()));
   }
-}
-
-std::string check_board(const std::string& name) {
-  if (emulated::find_board(name) != nullptr) {
-    return {};
-  }
-  std::string allowed;
-  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
-  }
-  return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
-}
-
-void require_emulator(const emulated::EmulatedBoard& board) {
-  const std::string program(board.emulator);
-  process::require_program(program,
-                           program == "qemu-system-arm" ? "qemu-system-arm" : "qemu-system-misc");
 }
 
 }  // namespace sonoglide::cli

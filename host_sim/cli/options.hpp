@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/experiment/experiment.hpp"
 #include "host_sim/output/output_folder.hpp"
 
@@ -87,12 +86,5 @@ void require_writable(const std::filesystem::path& out, const std::vector<std::s
 /// Writes what a study leaves behind, all or nothing, and prints its text and where it is.
 /// @throws output::OutputError
 void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet);
-
-/// @return empty for the name of a board, else what is wrong with it
-std::string check_board(const std::string& name);
-
-/// What would stop the run later stops it before anything is built.
-/// @throws process::ProcessError  the board's emulator is not installed
-void require_emulator(const emulated::EmulatedBoard& board);
 
 }  // namespace sonoglide::cli

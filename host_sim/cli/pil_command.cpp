@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"

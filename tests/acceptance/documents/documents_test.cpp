@@ -51,8 +51,10 @@ class BuiltRepository {
     fs::create_directories(root / "host_sim");
     fs::create_directory_symlink(source / "host_sim/scenes", root / "host_sim/scenes");
     fs::create_directories(root / "tools");
-    folder_.write("tools/demo", "#!/bin/sh\n");
-    fs::permissions(root / "tools/demo", fs::perms::owner_all);
+    for (const char* built : {"tools/demo", "build/release/bin/cmake"}) {
+      folder_.write(built, "#!/bin/sh\n");
+      fs::permissions(root / built, fs::perms::owner_all);
+    }
   }
 
   /// Both streams of a shell that runs these commands there.
