@@ -30,6 +30,13 @@ struct VibrationSample : Sample {
   bool vibration_fresh;     ///< false where no vibration sample arrived since the last one
 };
 
+/// With the mean velocity of the vibration, of a unit that damps a slow natural mode by a bias force:
+/// what a velocity pick-up that reaches down to 0 Hz shows, averaged over the carrier period.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): likewise
+struct MotionSample : VibrationSample {
+  std::int32_t mean_velocity;  ///< full scale: the vibration sensor's; limited to it
+};
+
 /// Answer to a sample. The amplitude takes effect at a drive phase 0. The design states how many
 /// carrier periods this is after the end of the sampled period (drive.delay_periods of a scene, 1
 /// by default).
@@ -49,6 +56,13 @@ struct ResonantDrive : Drive {
   std::int32_t frequency;  ///< steps of the frequency word above that of the start; else 0
 };
 
+/// Of a unit that damps a slow natural mode by a bias: a force that is constant over the carrier period
+/// in which the amplitude is in force, and beside the carrier. A second actuator makes it, or the same
+/// amplifier by a constant voltage beside the carrier.
+struct BiasedDrive : Drive {
+  std::int32_t bias;  ///< -2^31 + 1 … 2^31 - 1, full scale: drive.bias_limit_N; 0 without a drive
+};
+
 /// A board is a class of this shape. It needs no base class; the app is compiled for one board:
 ///
 ///   class Board {
@@ -58,7 +72,8 @@ struct ResonantDrive : Drive {
 ///   };
 ///
 /// The board of a unit that observes the vibration takes VibrationSample and ResonantDrive in their
-/// place.
+/// place; of one that answers with a bias too, MotionSample where there is a vibration sensor, and
+/// BiasedDrive.
 ///
 /// A board whose own timer makes the carrier periods (app::TimedLoop) keeps the drive at zero from
 /// reset until the first drive(), and also offers:

@@ -8,7 +8,7 @@
 namespace sonoglide::hal {
 
 /// 64-bit FNV-1a over every drive command (amplitude, commanded_ratio, state, limit, fault,
-/// settling; of a resonant one the frequency after them), or over every sample (friction_force,
+/// settling; of a resonant one the frequency after them, of a biased one the bias), or over every sample (friction_force,
 /// sliding_velocity, force_at_rail, fresh); a code is four bytes, lowest first, a flag is a byte, 1
 /// or 0. Source: Fowler, Noll and Vo, draft-eastlake-fnv.
 class TraceHash {
@@ -25,6 +25,11 @@ class TraceHash {
   void add(const ResonantDrive& drive) {
     add(static_cast<const Drive&>(drive));
     add_code(drive.frequency);
+  }
+
+  void add(const BiasedDrive& drive) {
+    add(static_cast<const Drive&>(drive));
+    add_code(drive.bias);
   }
 
   void add(const Sample& sample) {

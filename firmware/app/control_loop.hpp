@@ -1,8 +1,6 @@
 /// The loop that an image runs: sample, step, drive.
 #pragma once
 
-#include <type_traits>
-
 #include "firmware/app/exchange.hpp"
 #include "hal/board.hpp"
 
@@ -11,8 +9,8 @@ namespace sonoglide::app {
 /// Joins a controller to a board. The same code runs in an image and in the simulation.
 template <class ControllerT, class BoardT>
 class ControlLoop {
-  using Sample = std::conditional_t<ControllerT::observed, hal::VibrationSample, hal::Sample>;
-  using Drive = std::conditional_t<ControllerT::observed, hal::ResonantDrive, hal::Drive>;
+  using Sample = SampleOf<ControllerT>;
+  using Drive = DriveOf<ControllerT>;
   static_assert(hal::is_board<BoardT, Sample, Drive>,
                 "a board has sample() and drive(): see hal/board.hpp");
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/control/interface/measurement.hpp"
@@ -38,6 +39,13 @@ control::VibrationMeasurement<Scalar> measurement_of(const hal::VibrationSample&
           numeric::from_code<Scalar>(sample.quadrature), quality};
 }
 
+/// The same with the mean velocity of the vibration.
+template <class Scalar>
+control::MotionMeasurement<Scalar> measurement_of(const hal::MotionSample& sample) {
+  return {measurement_of<Scalar>(static_cast<const hal::VibrationSample&>(sample)),
+          numeric::from_code<Scalar>(sample.mean_velocity)};
+}
+
 /// Per-unit numbers as codes, rounded and limited as numeric::to_code.
 template <class Scalar>
 hal::Drive drive_of(const control::DriveCommand<Scalar>& command) {
@@ -50,5 +58,36 @@ template <class Scalar>
 hal::ResonantDrive drive_of(const control::ResonantCommand<Scalar>& command) {
   return {drive_of(static_cast<const control::DriveCommand<Scalar>&>(command)), command.frequency};
 }
+
+template <class Scalar>
+hal::BiasedDrive drive_of(const control::BiasedCommand<Scalar>& command) {
+  return {drive_of(static_cast<const control::DriveCommand<Scalar>&>(command)),
+          numeric::to_code(command.bias)};
+}
+
+namespace detail {
+
+template <class Measurement>
+struct SampleOf;
+template <class Scalar>
+struct SampleOf<control::Measurement<Scalar>> {
+  using Type = hal::Sample;
+};
+template <class Scalar>
+struct SampleOf<control::VibrationMeasurement<Scalar>> {
+  using Type = hal::VibrationSample;
+};
+template <class Scalar>
+struct SampleOf<control::MotionMeasurement<Scalar>> {
+  using Type = hal::MotionSample;
+};
+
+}  // namespace detail
+
+/// What a board hands to a controller, and what it gets.
+template <class ControllerT>
+using SampleOf = typename detail::SampleOf<typename ControllerT::Measurement>::Type;
+template <class ControllerT>
+using DriveOf = decltype(drive_of(std::declval<const typename ControllerT::Command&>()));
 
 }  // namespace sonoglide::app

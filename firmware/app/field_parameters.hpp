@@ -105,6 +105,9 @@ template <class PartsT>
 class FieldDesign {
  public:
   static_assert(!PartsT::Vibration::observed, "a timed unit has no vibration sensor");
+  static_assert(std::is_same_v<typename PartsT::Vibration::Command,
+                               control::DriveCommand<typename PartsT::Scalar>>,
+                "a timed unit makes no bias");
   using Scalar = typename PartsT::Scalar;
   /// The designed parts, with a drive limit and a tolerance of unusable samples.
   using Parts =

@@ -8,8 +8,8 @@ namespace sonoglide::hal::host {
 /// A mailbox between plant and controller: the simulation posts a sample, serves one step of the
 /// control loop and reads the drive back. No thread, no clock.
 ///
-/// @tparam SampleT  Sample | VibrationSample
-/// @tparam DriveT   Drive | ResonantDrive
+/// @tparam SampleT  Sample | VibrationSample | MotionSample
+/// @tparam DriveT   Drive | ResonantDrive | BiasedDrive
 template <class SampleT = Sample, class DriveT = Drive>
 class SimulatedBoard {
  public:

@@ -27,9 +27,19 @@ namespace sonoglide::hal::lockstep {
 /// | 16   | in_phase, i32                              |                |
 /// | 20   | quadrature, i32                            |                |
 /// | 24   | vibration_at_rail, vibration_fresh, 0, 0   | frequency, i32 |
+///
+/// Those of a unit that answers with a bias:
+///
+/// | byte | sample frame, with a vibration sensor      | drive frame    |
+/// |------|--------------------------------------------|----------------|
+/// | 16   | as above                                   |                |
+/// | 24   | as above                                   | bias, i32      |
+/// | 28   | mean_velocity, i32                         |                |
 inline constexpr std::size_t sample_frame_size = 16;
 inline constexpr std::size_t drive_frame_size = 24;
 inline constexpr std::size_t resonant_frame_size = 28;  ///< of either
+inline constexpr std::size_t motion_frame_size = 32;
+inline constexpr std::size_t biased_frame_size = 28;
 
 /// Cost of an answer on the board, in the unit of its counter, the reading of the counter excluded.
 /// 0 from a board without a counter.
@@ -47,6 +57,8 @@ struct alignas(std::uint32_t) DriveFrame : std::array<std::uint8_t, drive_frame_
 struct alignas(std::uint32_t) VibrationSampleFrame : std::array<std::uint8_t, resonant_frame_size> {
 };
 struct alignas(std::uint32_t) ResonantDriveFrame : std::array<std::uint8_t, resonant_frame_size> {};
+struct alignas(std::uint32_t) MotionSampleFrame : std::array<std::uint8_t, motion_frame_size> {};
+struct alignas(std::uint32_t) BiasedDriveFrame : std::array<std::uint8_t, biased_frame_size> {};
 
 namespace detail {
 
@@ -83,6 +95,14 @@ void put_sample(std::uint32_t period, const Sample& sample, Frame& frame) {
 }
 
 template <class Frame>
+void put_vibration(const VibrationSample& sample, Frame& frame) {
+  put(static_cast<std::uint32_t>(sample.in_phase), frame.data() + 16);
+  put(static_cast<std::uint32_t>(sample.quadrature), frame.data() + 20);
+  frame[24] = sample.vibration_at_rail ? 1 : 0;
+  frame[25] = sample.vibration_fresh ? 1 : 0;
+}
+
+template <class Frame>
 void put_drive(std::uint32_t period, const Drive& drive, Frame& frame) {
   put(period, frame.data());
   put(static_cast<std::uint32_t>(drive.amplitude), frame.data() + 4);
@@ -104,10 +124,15 @@ inline SampleFrame encode(std::uint32_t period, const Sample& sample) {
 inline VibrationSampleFrame encode(std::uint32_t period, const VibrationSample& sample) {
   VibrationSampleFrame frame{};
   detail::put_sample(period, sample, frame);
-  detail::put(static_cast<std::uint32_t>(sample.in_phase), frame.data() + 16);
-  detail::put(static_cast<std::uint32_t>(sample.quadrature), frame.data() + 20);
-  frame[24] = sample.vibration_at_rail ? 1 : 0;
-  frame[25] = sample.vibration_fresh ? 1 : 0;
+  detail::put_vibration(sample, frame);
+  return frame;
+}
+
+inline MotionSampleFrame encode(std::uint32_t period, const MotionSample& sample) {
+  MotionSampleFrame frame{};
+  detail::put_sample(period, sample, frame);
+  detail::put_vibration(sample, frame);
+  detail::put(static_cast<std::uint32_t>(sample.mean_velocity), frame.data() + 28);
   return frame;
 }
 
@@ -121,6 +146,13 @@ inline ResonantDriveFrame encode(std::uint32_t period, const ResonantDrive& driv
   ResonantDriveFrame frame{};
   detail::put_drive(period, drive, frame);
   detail::put(static_cast<std::uint32_t>(drive.frequency), frame.data() + 24);
+  return frame;
+}
+
+inline BiasedDriveFrame encode(std::uint32_t period, const BiasedDrive& drive) {
+  BiasedDriveFrame frame{};
+  detail::put_drive(period, drive, frame);
+  detail::put(static_cast<std::uint32_t>(drive.bias), frame.data() + 24);
   return frame;
 }
 
@@ -145,6 +177,12 @@ Sample get_sample(const Frame& frame) {
 }
 
 template <class Frame>
+VibrationSample get_vibration(const Frame& frame) {
+  return {get_sample(frame), static_cast<std::int32_t>(get(frame.data() + 16)),
+          static_cast<std::int32_t>(get(frame.data() + 20)), frame[24] != 0, frame[25] != 0};
+}
+
+template <class Frame>
 Drive get_drive(const Frame& frame) {
   return {static_cast<std::int32_t>(get(frame.data() + 4)),
           static_cast<std::int32_t>(get(frame.data() + 8)),
@@ -161,9 +199,11 @@ inline Sample sample_of(const SampleFrame& frame) {
 }
 
 inline VibrationSample sample_of(const VibrationSampleFrame& frame) {
-  return {detail::get_sample(frame), static_cast<std::int32_t>(detail::get(frame.data() + 16)),
-          static_cast<std::int32_t>(detail::get(frame.data() + 20)), frame[24] != 0,
-          frame[25] != 0};
+  return detail::get_vibration(frame);
+}
+
+inline MotionSample sample_of(const MotionSampleFrame& frame) {
+  return {detail::get_vibration(frame), static_cast<std::int32_t>(detail::get(frame.data() + 28))};
 }
 
 inline Drive drive_of(const DriveFrame& frame) {
@@ -171,6 +211,10 @@ inline Drive drive_of(const DriveFrame& frame) {
 }
 
 inline ResonantDrive drive_of(const ResonantDriveFrame& frame) {
+  return {detail::get_drive(frame), static_cast<std::int32_t>(detail::get(frame.data() + 24))};
+}
+
+inline BiasedDrive drive_of(const BiasedDriveFrame& frame) {
   return {detail::get_drive(frame), static_cast<std::int32_t>(detail::get(frame.data() + 24))};
 }
 
@@ -192,6 +236,14 @@ struct FrameOf<Drive> {
 template <>
 struct FrameOf<ResonantDrive> {
   using Type = ResonantDriveFrame;
+};
+template <>
+struct FrameOf<MotionSample> {
+  using Type = MotionSampleFrame;
+};
+template <>
+struct FrameOf<BiasedDrive> {
+  using Type = BiasedDriveFrame;
 };
 
 // How an image in lockstep ends; what the emulator's process returns.

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_steps.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 
@@ -44,6 +45,21 @@ void design_vibration(const scene::Scene& scene, const NominalPlant& plant, Cont
   }
 }
 
+/// @pre the vibration is designed
+void design_bias(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
+  const auto* sensorless = design.in_mode<SensorlessDesign>();
+  if (scene.drive->bias_limit_N > 0.0 && sensorless != nullptr && !sensorless->apart) {
+    throw ConfigurationError(
+        "drive.bias_limit_N",
+        "is of no use: no reading of the friction tells a natural mode within 0.5 % of the carrier "
+        "frequency from 0; allowed: 0, or a sensor.vibration");
+  }
+  if (scene.drive->bias_limit_N > 0.0) {
+    design.bias =
+        design_bias(scene, plant, nominal_resonator(scene, plant, design.scales.velocity_m_per_s));
+  }
+}
+
 }  // namespace
 
 ControlDesign design_control(const scene::Scene& scene) {
@@ -58,6 +74,7 @@ ControlDesign design_control(const scene::Scene& scene) {
   design.relearns = scene.controller->relearn_every_s.has_value();
   design_scales(scene, plant, design);
   design_vibration(scene, plant, design);
+  design_bias(scene, plant, design);
   design_supervision(scene, plant, design);
   design_calibration(scene, plant, design);
   design_slew(*scene.drive, design);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/vibration/bias_design.hpp"
 #include "host_sim/configure/vibration/damped_design.hpp"
 #include "host_sim/configure/vibration/notch_design.hpp"
 #include "host_sim/configure/vibration/resonant_design.hpp"
@@ -65,6 +66,7 @@ struct ControlDesign {
   bool senses_force = true;
   /// In the order of scene::VibrationMode.
   std::variant<FeedforwardDesign, SensorlessDesign, DampedDesign, ResonantDesign> vibration;
+  std::optional<BiasDesign> bias;    ///< where the scene has a bias limit
   double usual_calibration_s = 0.0;  ///< in which contact and sensor settle
 
   bool slew_limited = false;  ///< the members below hold where the flag is set

@@ -16,6 +16,7 @@
 #include "firmware/control/limits/current_limit.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
+#include "firmware/control/vibration/biased_damping.hpp"
 #include "firmware/control/vibration/damped_vibration.hpp"
 #include "firmware/control/vibration/fed_forward.hpp"
 #include "firmware/control/vibration/reading_lag.hpp"
@@ -60,13 +61,18 @@ struct VibrationParts {
   template <template <class> class Current>
   using Resonant = control::ResonantVibration<Scalar, max_drive_delay, Current<Scalar>>;
   using Damped = control::DampedVibration<Scalar, max_drive_delay>;
+  using BiasedDamped = control::BiasedDampedVibration<Scalar, max_drive_delay>;
   template <template <class> class Reading>
   using Sensorless = control::SensorlessVibration<Scalar, max_reading_delay, Reading<Scalar>>;
+  template <template <class> class Reading>
+  using BiasedSensorless =
+      control::BiasedSensorlessVibration<Scalar, max_reading_delay, Reading<Scalar>>;
   using Part = std::conditional_t<
       can_observe_vibration<Scalar>,
       Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
              Resonant<control::CurrentLimit>, Damped, Sensorless<control::PromptReading>,
-             Sensorless<control::LaggingReading>>,
+             Sensorless<control::LaggingReading>, BiasedDamped,
+             BiasedSensorless<control::PromptReading>, BiasedSensorless<control::LaggingReading>>,
       Choice<control::FedForward<Scalar>>>;
 
   static Part chosen(const ControlDesign& design) {
@@ -76,16 +82,23 @@ struct VibrationParts {
           break;
         case scene::VibrationMode::sensorless:
           return design.in_mode<SensorlessDesign>()->lags()
-                     ? Part(Type<Sensorless<control::LaggingReading>>{})
-                     : Part(Type<Sensorless<control::PromptReading>>{});
+                     ? sensorless<control::LaggingReading>(design)
+                     : sensorless<control::PromptReading>(design);
         case scene::VibrationMode::damped:
-          return Part(Type<Damped>{});
+          return design.bias ? Part(Type<BiasedDamped>{}) : Part(Type<Damped>{});
         case scene::VibrationMode::resonant:
           return design.resonance()->current_limited ? Part(Type<Resonant<control::CurrentLimit>>{})
                                                      : Part(Type<Resonant<control::FullCurrent>>{});
       }
     }
     return Part(Type<control::FedForward<Scalar>>{});
+  }
+
+ private:
+  template <template <class> class Reading>
+  static Part sensorless(const ControlDesign& design) {
+    return design.bias ? Part(Type<BiasedSensorless<Reading>>{})
+                       : Part(Type<Sensorless<Reading>>{});
   }
 };
 

@@ -129,9 +129,9 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
   }
 }
 
-void add_notes(const DampedDesign& mode, const ControlDesign& /*design*/,
+void add_notes(const DampedDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
-  if (!mode.quick) {
+  if (!mode.quick && !design.bias) {
     notes.push_back(
         "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
         "the amplitude damps it quickly: the vibration velocity is controlled, and the friction "
@@ -170,7 +170,7 @@ void add_notes(const SensorlessDesign& mode, const ControlDesign& design,
         "is of the friction ratio alone, which stays off its target if the stiffness is not the "
         "nominal one or if the ringing of the last target is too large.");
   } else {
-    if (!mode.quick) {
+    if (!mode.quick && !design.bias) {
       notes.push_back(
           "The natural mode is so near 0 or a multiple of the carrier frequency that no change of "
           "the amplitude damps it quickly: the friction ratio may swing about its target or stay "
@@ -194,6 +194,12 @@ void add_notes(const SensorlessDesign& mode, const ControlDesign& design,
 std::vector<std::string> design_notes(const ControlDesign& design) {
   std::vector<std::string> notes;
   std::visit([&](const auto& mode) { add_notes(mode, design, notes); }, design.vibration);
+  if (design.bias) {
+    notes.push_back(fmt::format(
+        "The natural mode, at {:.3g} of the carrier frequency, is damped by a bias force of up to "
+        "{:.4g} N: what acts in one carrier period takes {:.2g} of the mean velocity away.",
+        design.bias->natural, design.bias->limit_N, design.bias->part));
+  }
   return notes;
 }
 

@@ -47,6 +47,14 @@ hal::ResonantDrive ImageProcess::exchange(const hal::VibrationSample& sample) {
   return ask<hal::ResonantDrive>(sample);
 }
 
+hal::BiasedDrive ImageProcess::exchange_biased(const hal::Sample& sample) {
+  return ask<hal::BiasedDrive>(sample);
+}
+
+hal::BiasedDrive ImageProcess::exchange_biased(const hal::MotionSample& sample) {
+  return ask<hal::BiasedDrive>(sample);
+}
+
 template <class Drive, class Sample>
 Drive ImageProcess::ask(const Sample& sample) {
   const auto question = lockstep::encode(period_, sample);

@@ -41,6 +41,9 @@ class ImageProcess {
   hal::Drive exchange(const hal::Sample& sample);
   /// The same of a unit that observes the vibration.
   hal::ResonantDrive exchange(const hal::VibrationSample& sample);
+  /// The same of a unit that answers with a bias.
+  hal::BiasedDrive exchange_biased(const hal::Sample& sample);
+  hal::BiasedDrive exchange_biased(const hal::MotionSample& sample);
 
   /// What the latest answer cost, in the unit of the board's counter.
   hal::lockstep::AnswerCost latest_cost() const { return cost_; }

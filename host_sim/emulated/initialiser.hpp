@@ -56,11 +56,28 @@ PartText part_text(configure::Type<control::ScalingRegulator<Scalar, MaxDelay>> 
       fmt::format(", {}", parameters.delay_periods));
 }
 
+/// The periods of delay that a vibration is told.
+template <class Parameters>
+auto delay_of(const Parameters& parameters) -> decltype(parameters.delay) {
+  return parameters.delay;
+}
+template <class Parameters>
+auto delay_of(const Parameters& parameters) -> decltype(parameters.vibration.delay) {
+  return parameters.vibration.delay;
+}
+
 template <class Scalar, int MaxDelay, class Parameters>
 PartText part_text(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/,
                    const Parameters& parameters) {
   return part_text<control::DampedVibration<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay));
+      fmt::format(", {}", delay_of(parameters)));
+}
+
+template <class Scalar, int MaxDelay, class Parameters>
+PartText part_text(configure::Type<control::BiasedDampedVibration<Scalar, MaxDelay>> /*part*/,
+                   const Parameters& parameters) {
+  return part_text<control::BiasedDampedVibration<Scalar, MaxDelay>>(
+      fmt::format(", {}", delay_of(parameters)));
 }
 
 /// A vibration that has a part of its own.
@@ -69,7 +86,7 @@ template <template <class, int, class> class Vibration, class Scalar, int MaxDel
 PartText part_text(configure::Type<Vibration<Scalar, MaxDelay, Inner>> /*part*/,
                    const Parameters& parameters) {
   PartText text = part_text<Vibration<Scalar, MaxDelay, Inner>>(
-      fmt::format(", {}, control::{}<Scalar>", parameters.delay, Inner::part_name.type));
+      fmt::format(", {}, control::{}<Scalar>", delay_of(parameters), Inner::part_name.type));
   text.headers.emplace_back(Inner::part_name.header);
   return text;
 }

@@ -35,9 +35,8 @@ ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::file
 
 void ImageControl::set_target(double /*friction_ratio*/) {}
 
-template <class Sample>
-auto ImageControl::ask(const Sample& sample) {
-  const auto drive = image_.exchange(sample);
+template <class Drive>
+Drive ImageControl::counted(const Drive& drive) {
   if (exchanges_ == 0) {
     first_answer_ = Clock::now();
   }
@@ -49,11 +48,19 @@ auto ImageControl::ask(const Sample& sample) {
 }
 
 hal::Drive ImageControl::exchange(const hal::Sample& sample) {
-  return ask(sample);
+  return counted(image_.exchange(sample));
 }
 
 hal::ResonantDrive ImageControl::exchange(const hal::VibrationSample& sample) {
-  return ask(sample);
+  return counted(image_.exchange(sample));
+}
+
+hal::BiasedDrive ImageControl::exchange_biased(const hal::Sample& sample) {
+  return counted(image_.exchange_biased(sample));
+}
+
+hal::BiasedDrive ImageControl::exchange_biased(const hal::MotionSample& sample) {
+  return counted(image_.exchange_biased(sample));
 }
 
 std::vector<numeric::SignalRecord> ImageControl::signals() const {

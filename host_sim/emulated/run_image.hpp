@@ -48,6 +48,10 @@ class ImageControl final : public loop::ControlPort {
   hal::Drive exchange(const hal::Sample& sample) override;
   /// @throws EmulatorError
   hal::ResonantDrive exchange(const hal::VibrationSample& sample) override;
+  /// @throws EmulatorError
+  hal::BiasedDrive exchange_biased(const hal::Sample& sample) override;
+  /// @throws EmulatorError
+  hal::BiasedDrive exchange_biased(const hal::MotionSample& sample) override;
 
   /// None: an image does not watch its signals.
   std::vector<numeric::SignalRecord> signals() const override;
@@ -61,8 +65,9 @@ class ImageControl final : public loop::ControlPort {
  private:
   using Clock = std::chrono::steady_clock;
 
-  template <class Sample>
-  auto ask(const Sample& sample);
+  /// @param drive  its answer
+  template <class Drive>
+  Drive counted(const Drive& drive);
 
   const emulated::EmulatedBoard& board_;
   process::OneCore core_;

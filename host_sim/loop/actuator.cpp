@@ -6,11 +6,15 @@
 
 namespace sonoglide::loop {
 
-Actuator::Actuator(int delay_periods, double full_scale_N)
-    : full_scale_N_(full_scale_N), queue_(static_cast<std::size_t>(delay_periods) + 1) {}
+Actuator::Actuator(int delay_periods, double full_scale_N, double bias_limit_N)
+    : full_scale_N_(full_scale_N),
+      bias_limit_N_(bias_limit_N),
+      queue_(static_cast<std::size_t>(delay_periods) + 1) {}
 
-void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequency) {
+void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequency,
+                    std::int32_t bias) {
   queue_[first_] = {numeric::from_code<double>(drive.amplitude) * full_scale_N_,
+                    numeric::from_code<double>(bias) * bias_limit_N_,
                     frequency,
                     target,
                     2.0 * numeric::from_code<double>(drive.commanded_ratio),  // on base 2

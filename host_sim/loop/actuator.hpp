@@ -15,6 +15,7 @@ namespace sonoglide::loop {
 /// What drives one carrier period.
 struct Command {
   double amplitude_N = 0.0;
+  double bias_N = 0.0;         ///< constant over the period, beside the carrier
   std::int32_t frequency = 0;  ///< of a resonant drive: steps of its word from the start
   double target = std::numeric_limits<double>::quiet_NaN();  ///< that it was picked for
   double commanded_ratio = std::numeric_limits<double>::quiet_NaN();
@@ -29,10 +30,15 @@ class Actuator {
   /// @param delay_periods  from the end of the period that a sample describes to the phase 0 at
   ///                       which its answer acts
   /// @param full_scale_N   amplitude of code 2^31
-  Actuator(int delay_periods, double full_scale_N);
+  /// @param bias_limit_N   bias of code 2^31
+  Actuator(int delay_periods, double full_scale_N, double bias_limit_N = 0.0);
 
   /// The answer to the period that has just passed; target: friction ratio it was picked for.
-  void take(const hal::Drive& drive, double target, std::int32_t frequency = 0);
+  void take(const hal::Drive& drive, double target) { take(drive, target, 0, 0); }
+  void take(const hal::ResonantDrive& drive, double target) {
+    take(drive, target, drive.frequency, 0);
+  }
+  void take(const hal::BiasedDrive& drive, double target) { take(drive, target, 0, drive.bias); }
 
   /// In force during the next carrier period; off until the first answer acts.
   const Command& in_force() const { return queue_[first_]; }
@@ -41,7 +47,10 @@ class Actuator {
   void restore(SnapshotReader& state);
 
  private:
+  void take(const hal::Drive& drive, double target, std::int32_t frequency, std::int32_t bias);
+
   double full_scale_N_;
+  double bias_limit_N_;
   std::vector<Command> queue_;  ///< a ring
   std::size_t first_ = 0;       ///< in it
 };

@@ -27,8 +27,8 @@ class InProcess : public ControlPort {
   using Scalar = typename Parts::Scalar;
 
  public:
-  using Sample = std::conditional_t<Controller::observed, hal::VibrationSample, hal::Sample>;
-  using Drive = std::conditional_t<Controller::observed, hal::ResonantDrive, hal::Drive>;
+  using Sample = app::SampleOf<Controller>;
+  using Drive = app::DriveOf<Controller>;
 
   explicit InProcess(const ControlDesign& design)
       : parameters_(configure::controller_parameters<Parts>(design)),
@@ -88,6 +88,26 @@ class InProcessControl final : public InProcess<Parts> {
   Drive exchange(const Sample& sample) override { return this->answer(sample); }
 };
 
+template <class Parts>
+class InProcessBiasedControl final : public InProcess<Parts> {
+ public:
+  using InProcess<Parts>::InProcess;
+  using typename InProcess<Parts>::Sample;
+  using ControlPort::exchange_biased;
+
+  hal::BiasedDrive exchange_biased(const Sample& sample) override { return this->answer(sample); }
+};
+
+template <class Parts>
+std::unique_ptr<ControlPort> in_process(const ControlDesign& design) {
+  using Drive = app::DriveOf<control::Controller<Parts>>;
+  if constexpr (std::is_same_v<Drive, hal::BiasedDrive>) {
+    return std::make_unique<InProcessBiasedControl<Parts>>(design);
+  } else {
+    return std::make_unique<InProcessControl<Parts>>(design);
+  }
+}
+
 /// The inverse map, but for friction that is learnt while driving.
 template <class Scalar>
 auto map_of(const ControlDesign& design) {
@@ -130,30 +150,28 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
         using Feedforward = typename decltype(feedforward)::type;
         if (design.senses_force) {
           using Feedback = Regulator<Scalar, configure::max_reference_delay>;
-          return std::make_unique<InProcessControl<ObservedParts<
-              Scalar, Friction, Feedforward, Feedback, Vibration, control::ForceSensor>>>(design);
+          return in_process<ObservedParts<Scalar, Friction, Feedforward, Feedback, Vibration,
+                                          control::ForceSensor>>(design);
         }
-        return std::make_unique<InProcessControl<
+        return in_process<
             ObservedParts<Scalar, control::TrustedFriction<Scalar>, Feedforward,
-                          control::NoFeedback<Scalar>, Vibration, control::NoForceSensor>>>(design);
+                          control::NoFeedback<Scalar>, Vibration, control::NoForceSensor>>(design);
       },
       parts.friction, map_of<Scalar>(design));
 }
 
 /// Relearning, and the lead of a reading, are wide open where a scene does not name them.
-template <class Scalar>
+template <class Scalar, class Vibration>
 std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
       [&](auto friction, auto feedforward) -> std::unique_ptr<ControlPort> {
-        using Vibration = control::SensorlessVibration<Scalar, configure::max_reading_delay,
-                                                       control::LaggingReading<Scalar>>;
         using Parts =
             control::Parts<Scalar, typename decltype(friction)::type,
                            typename decltype(feedforward)::type, control::NoSlewLimit<Scalar>,
                            control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
                            control::PeriodicRelearning<Scalar>, Vibration>;
-        return std::make_unique<InProcessControl<Parts>>(design);
+        return in_process<Parts>(design);
       },
       parts.friction, map_of<Scalar>(design));
 }
@@ -181,13 +199,25 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
   using namespace compose;
   if constexpr (configure::can_observe_vibration<Scalar>) {
     using configure::max_drive_delay;
+    using configure::max_reading_delay;
+    using Lagging = control::LaggingReading<Scalar>;
     using Current = control::CurrentLimit<Scalar>;
     switch (design.vibration_mode()) {
       case scene::VibrationMode::feedforward:
         break;
       case scene::VibrationMode::sensorless:
-        return make_feeling_control<Scalar>(design);
+        return design.bias
+                   ? make_feeling_control<Scalar, control::BiasedSensorlessVibration<
+                                                      Scalar, max_reading_delay, Lagging>>(design)
+                   : make_feeling_control<
+                         Scalar, control::SensorlessVibration<Scalar, max_reading_delay, Lagging>>(
+                         design);
       case scene::VibrationMode::damped:
+        if (design.bias) {
+          return make_observing_control<Scalar,
+                                        control::BiasedDampedVibration<Scalar, max_drive_delay>>(
+              design);
+        }
         return make_observing_control<Scalar, control::DampedVibration<Scalar, max_drive_delay>>(
             design);
       case scene::VibrationMode::resonant:

@@ -14,6 +14,14 @@ hal::ResonantDrive ControlPort::exchange(const hal::VibrationSample& /*sample*/)
   throw std::logic_error("a controller that observes no vibration has no use for a sample of it");
 }
 
+hal::BiasedDrive ControlPort::exchange_biased(const hal::Sample& /*sample*/) {
+  throw std::logic_error("this controller answers with no bias, or needs the mean velocity for it");
+}
+
+hal::BiasedDrive ControlPort::exchange_biased(const hal::MotionSample& /*sample*/) {
+  throw std::logic_error("this controller has no use for the mean velocity");
+}
+
 std::optional<FrictionBelief> ControlPort::friction() const {
   return std::nullopt;
 }

@@ -20,10 +20,13 @@ class ControlPort {
   virtual ~ControlPort() = default;
   /// Sets the target friction ratio, in (0, 1].
   virtual void set_target(double friction_ratio) = 0;
-  /// One control step. A controller overrides the one of the two that it answers.
+  /// One control step. A controller overrides the one of these that it answers.
   virtual hal::Drive exchange(const hal::Sample& sample);
   /// The same of a controller that observes the vibration.
   virtual hal::ResonantDrive exchange(const hal::VibrationSample& sample);
+  /// The same of a controller that answers with a bias too.
+  virtual hal::BiasedDrive exchange_biased(const hal::Sample& sample);
+  virtual hal::BiasedDrive exchange_biased(const hal::MotionSample& sample);
   /// What the fixed-point signals did so far; empty for floating point.
   virtual std::vector<numeric::SignalRecord> signals() const = 0;
   /// Of friction that is learnt while driving; absent of any other, and of an image.

@@ -42,7 +42,7 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       record_(record),
       observes_vibration_(scene.sensor.vibration),
       sensor_(scene.sensor, record.design.scales, vibration_gain(scene, record.design)),
-      actuator_(scene.drive->delay_periods, scene.max_drive_force_N()),
+      actuator_(scene.drive->delay_periods, scene.max_drive_force_N(), scene.drive->bias_limit_N),
       start_frequency_Hz_(scene.drive->frequency_Hz),
       clock_ratio_(scene.drive->frequency_Hz / record.design.carrier_Hz),
       nominal_friction_N_(record.design.friction_force * record.design.scales.force_N),
@@ -64,6 +64,7 @@ void ControlRun::label(Period& period) const {
   period.limit = command.limit;
   period.settling = command.settling;
   period.commanded_ratio = command.commanded_ratio;
+  period.bias_N = command.bias_N;
   const bool held =
       command.state == control::State::running || command.state == control::State::limited;
   if (observes_vibration_ && held && period.target < 1.0) {
@@ -74,19 +75,28 @@ void ControlRun::label(Period& period) const {
 }
 
 void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
-                      std::complex<double> vibration_m_per_s) {
+                      std::complex<double> vibration_m_per_s, double mean_velocity_m_per_s) {
   follow_target();
   learn(mean_force_N);
-  if (observes_vibration_) {
-    const hal::ResonantDrive drive =
-        port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s));
-    actuator_.take(drive, target_, drive.frequency);
-    account_for(drive, time_s);
+  const bool biased = answers_with_bias();
+  if (observes_vibration_ && biased) {
+    take(port_.exchange_biased(sensor_.sample(mean_force_N, sliding_velocity_m_per_s,
+                                              vibration_m_per_s, mean_velocity_m_per_s)),
+         time_s);
+  } else if (observes_vibration_) {
+    take(port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s)),
+         time_s);
+  } else if (biased) {
+    take(port_.exchange_biased(sensor_.sample(mean_force_N, sliding_velocity_m_per_s)), time_s);
   } else {
-    const hal::Drive drive = port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s));
-    actuator_.take(drive, target_);
-    account_for(drive, time_s);
+    take(port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s)), time_s);
   }
+}
+
+template <class Drive>
+void ControlRun::take(const Drive& drive, double time_s) {
+  actuator_.take(drive, target_);
+  account_for(drive, time_s);
 }
 
 void ControlRun::aim_at(double friction_ratio) {

@@ -42,7 +42,10 @@ class ControlRun {
 
   /// In force during the next carrier period.
   double amplitude_N() const { return actuator_.in_force().amplitude_N; }
+  double bias_N() const { return actuator_.in_force().bias_N; }
   double frequency_Hz() const;
+  /// The answers set a bias, too.
+  bool answers_with_bias() const { return record_.design.bias.has_value(); }
   /// The answers set the frequency of the drive.
   bool leads_frequency() const { return elapsed_.has_value(); }
 
@@ -50,9 +53,10 @@ class ControlRun {
   void label(Period& period) const;
 
   /// One control step, at the end of a carrier period.
-  /// @param vibration_m_per_s  of the period, see Sensor; of use to a loop that observes it
+  /// @param vibration_m_per_s      of the period, see Sensor; of use to a loop that observes it
+  /// @param mean_velocity_m_per_s  likewise, of the vibration; of use to one that answers with a bias
   void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
-            std::complex<double> vibration_m_per_s = {});
+            std::complex<double> vibration_m_per_s = {}, double mean_velocity_m_per_s = 0.0);
 
   /// Of the sample that comes next and of those after it, in place of the scene's steps.
   /// @param friction_ratio  in (0, 1]
@@ -73,6 +77,8 @@ class ControlRun {
  private:
   void follow_target();
   void learn(double mean_force_N);
+  template <class Drive>
+  void take(const Drive& drive, double time_s);
   template <class Drive>
   void account_for(const Drive& drive, double time_s);
 

@@ -53,6 +53,8 @@ PlantPeriod Engine::begun(double amplitude_N) const {
 PlantPeriod Engine::move(double amplitude_N, double bias_N) {
   PlantPeriod period = begun(amplitude_N);
   period.begin_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+  const bool biased = control_ && control_->answers_with_bias();
+  const double begin_m = biased ? plant_->state().displacement_m : 0.0;
   const EnergyBalance energy = plant_->advance(amplitude_N, bias_N);
   period.end_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
   period.mean_friction_force_N = energy.friction_impulse_N_s / energy.duration_s;
@@ -69,6 +71,9 @@ PlantPeriod Engine::move(double amplitude_N, double bias_N) {
                                    period.vibration_m_per_s);
     }
   }
+  if (biased) {
+    period.mean_velocity_m_per_s = (plant_->state().displacement_m - begin_m) / energy.duration_s;
+  }
   period.open_fraction = energy.open_s / energy.duration_s;
   return period;
 }
@@ -82,7 +87,7 @@ void Engine::conclude(PlantPeriod& period) {
   }
   if (control_ && period.whole) {
     control_->step(period.end_s, period.mean_friction_force_N, period.end_velocity_m_per_s,
-                   period.vibration_m_per_s);
+                   period.vibration_m_per_s, period.mean_velocity_m_per_s);
   }
   clock_.next();
 }

@@ -17,6 +17,7 @@ namespace sonoglide::loop {
 /// A carrier period as the controller and those who watch see it.
 struct PlantPeriod : Period {
   double mean_friction_force_N = 0.0;
+  double mean_velocity_m_per_s = 0.0;  ///< of the vibration; 0 where no bias answers it
 };
 
 /// A result to be filled in; with a controller of this design.

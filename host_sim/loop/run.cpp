@@ -27,7 +27,7 @@ void advance(const scene::Scene& scene, Engine& engine) {
   }
   const double open_loop_N = scene.drive ? scene.drive_force_N() : 0.0;
   const double amplitude_N = control ? control->amplitude_N() : open_loop_N;
-  PlantPeriod period = engine.move(amplitude_N);
+  PlantPeriod period = engine.move(amplitude_N, control ? control->bias_N() : 0.0);
   engine.conclude(period);
 }
 

@@ -8,11 +8,6 @@
 namespace sonoglide::loop {
 namespace {
 
-struct Conversion {
-  std::int32_t code;  ///< left-justified
-  bool at_rail;
-};
-
 /// Of a number that an integer can hold. std::floor is a call without SSE4.1.
 std::int64_t floored(double value) {
   const auto towards_zero = static_cast<std::int64_t>(value);
@@ -20,6 +15,7 @@ std::int64_t floored(double value) {
 }
 
 /// A two's-complement converter of the given width that spans ± full scale, rounding to nearest.
+template <class Conversion>
 Conversion convert(double value, double full_scale, int bits) {
   const auto levels = static_cast<double>(std::int64_t{1} << (bits - 1));
   const double scaled = value / full_scale * levels;
@@ -59,21 +55,33 @@ hal::Sample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s)
                                        : 0.0;
   const double velocity_m_per_s =
       sensor_.velocity_gain * sliding_velocity_m_per_s + sensor_.velocity_offset_m_per_s;
-  const Conversion force = convert(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
-  const Conversion velocity = convert(velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
+  const Conversion force =
+      convert<Conversion>(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
+  const Conversion velocity =
+      convert<Conversion>(velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
   return {force.code, velocity.code, force.at_rail, true, velocity.at_rail};
 }
 
 hal::VibrationSample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s,
                                     std::complex<double> vibration_m_per_s) {
-  const auto converted = [&](double component_m_per_s) {
-    return convert(vibration_gain_ * component_m_per_s + noise(sensor_.vibration_noise_m_per_s),
-                   scales_.velocity_m_per_s, sensor_.vibration_bits.value_or(ideal_bits));
-  };
   const hal::Sample sample = this->sample(mean_force_N, sliding_velocity_m_per_s);
-  const Conversion in_phase = converted(vibration_m_per_s.real());
-  const Conversion quadrature = converted(vibration_m_per_s.imag());
+  const Conversion in_phase = seen(vibration_m_per_s.real());
+  const Conversion quadrature = seen(vibration_m_per_s.imag());
   return {sample, in_phase.code, quadrature.code, in_phase.at_rail || quadrature.at_rail, true};
+}
+
+hal::MotionSample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s,
+                                 std::complex<double> vibration_m_per_s,
+                                 double mean_velocity_m_per_s) {
+  const hal::VibrationSample sample =
+      this->sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s);
+  return {sample, seen(mean_velocity_m_per_s).code};
+}
+
+Sensor::Conversion Sensor::seen(double velocity_m_per_s) {
+  return convert<Conversion>(
+      vibration_gain_ * velocity_m_per_s + noise(sensor_.vibration_noise_m_per_s),
+      scales_.velocity_m_per_s, sensor_.vibration_bits.value_or(ideal_bits));
 }
 
 void Sensor::save(SnapshotWriter& state) const {

@@ -43,10 +43,21 @@ class Sensor {
   hal::VibrationSample sample(double mean_force_N, double sliding_velocity_m_per_s,
                               std::complex<double> vibration_m_per_s);
 
+  /// The same with the mean velocity of the vibration, which the converter limits to its range.
+  hal::MotionSample sample(double mean_force_N, double sliding_velocity_m_per_s,
+                           std::complex<double> vibration_m_per_s, double mean_velocity_m_per_s);
+
   void save(SnapshotWriter& state) const;
   void restore(SnapshotReader& state);
 
  private:
+  struct Conversion {
+    std::int32_t code;  ///< left-justified
+    bool at_rail;
+  };
+
+  /// Of a velocity of the vibration.
+  Conversion seen(double velocity_m_per_s);
   double filtered(double force_N);
   double delayed(double force_N);
   double noise(double rms);

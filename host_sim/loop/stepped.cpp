@@ -16,6 +16,11 @@ void require_usable(const scene::Scene& scene, Kind kind) {
     throw ConfigurationError("controller",
                              "missing; allowed: a scene in closed loop, or the plant alone");
   }
+  if (kind != Kind::loop && scene.drive->bias_limit_N > 0.0) {
+    throw ConfigurationError("drive.bias_limit_N",
+                             "a plant or a controller alone has no bias force between the two; "
+                             "allowed: 0, or the whole loop");
+  }
 }
 
 void require_constant_carrier(const scene::Scene& scene) {
@@ -78,7 +83,8 @@ void SteppedScene::advance(const Inputs& inputs) {
   engine_.set_frequency_Hz(next_period(inputs).frequency_Hz());
   const double amplitude_N =
       port_ ? engine_.control()->amplitude_N() : inputs.drive_force_amplitude_N;
-  PlantPeriod period = has_plant() ? engine_.move(amplitude_N) : engine_.begun(amplitude_N);
+  const double bias_N = port_ ? engine_.control()->bias_N() : 0.0;
+  PlantPeriod period = has_plant() ? engine_.move(amplitude_N, bias_N) : engine_.begun(amplitude_N);
   if (has_plant()) {
     show_plant(period);
   } else {

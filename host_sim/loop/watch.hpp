@@ -23,6 +23,7 @@ struct Period {
   double end_velocity_m_per_s = 0.0;
   double drive_amplitude_N = 0.0;  ///< in force during it, at its end where it passes linearly
   double frequency_Hz = 0.0;       ///< likewise, of the carrier; 0 without a drive
+  double bias_N = 0.0;             ///< likewise: the force that is constant over it
   bool whole = true;               ///< not cut short by the end of the run
   /// z [m/s]: the vibration velocity is Re(z e^jθ), θ the phase of the drive; NaN where
   /// nobody asks for it, and of a period that is cut short.

@@ -14,6 +14,10 @@ configure::Experiment with_controller(configure::Experiment experiment) {
   if (!experiment.design) {
     throw configure::ConfigurationError("controller", "missing; allowed: a scene in closed loop");
   }
+  if (experiment.design->bias) {
+    throw configure::ConfigurationError(
+        "drive.bias_limit_N", "a Unit has no bias force among its answers; allowed: 0, or a Loop");
+  }
   return experiment;
 }
 

@@ -14,7 +14,7 @@ namespace sonoglide::python {
 class ControllerUnit {
  public:
   /// Begins with the first target of the scene.
-  /// @throws configure::ConfigurationError  the scene has no controller
+  /// @throws configure::ConfigurationError  the scene has no controller, or one that answers with a bias
   explicit ControllerUnit(configure::Experiment experiment);
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no

@@ -59,11 +59,11 @@ void RepeatingNumber::append_to(fmt::memory_buffer& row, double value) {
   row.append(text_.begin(), text_.end());
 }
 
-PeriodsCsv::PeriodsCsv(CsvFile file, const AmplitudeUnit& unit)
-    : file_(std::move(file)), unit_(unit) {
+PeriodsCsv::PeriodsCsv(CsvFile file, const AmplitudeUnit& unit, bool biased)
+    : file_(std::move(file)), unit_(unit), biased_(biased) {
   fmt::format_to(std::back_inserter(file_.row()),
-                 "time_s,friction_ratio,target,drive_amplitude_{},sliding_velocity_m_per_s,limit",
-                 unit.name);
+                 "time_s,friction_ratio,target,drive_amplitude_{},sliding_velocity_m_per_s,limit{}",
+                 unit.name, biased ? ",bias_N" : "");
   file_.finish_row();
 }
 
@@ -80,6 +80,10 @@ void PeriodsCsv::take(const loop::Period& period) {
   sliding_velocity_m_per_s_.append_to(row, period.begin_velocity_m_per_s);
   row.push_back(',');
   row.append(std::string_view(limit_name(period.limit)));
+  if (biased_) {
+    row.push_back(',');
+    append(row, period.bias_N);
+  }
   file_.finish_row();
 }
 

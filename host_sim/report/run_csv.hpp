@@ -44,12 +44,14 @@ class RepeatingNumber {
 /// periods.csv: one row for each carrier period; numbers as short as they can be read back.
 class PeriodsCsv final : public loop::PeriodSink {
  public:
-  PeriodsCsv(CsvFile file, const AmplitudeUnit& unit);
+  /// @param biased  with a column of the bias
+  PeriodsCsv(CsvFile file, const AmplitudeUnit& unit, bool biased);
   void take(const loop::Period& period) override;
 
  private:
   CsvFile file_;
   AmplitudeUnit unit_;
+  bool biased_;
   RepeatingNumber target_;
   RepeatingNumber drive_amplitude_;
   RepeatingNumber sliding_velocity_m_per_s_;

@@ -32,10 +32,14 @@ class Course final : public loop::PeriodSink {
     return periods_in_[static_cast<std::size_t>(limit)];
   }
 
+  /// Magnitude.
+  double largest_bias_N() const { return largest_bias_N_; }
+
  private:
   static constexpr std::size_t most_points = 20000;
 
   Curve curve_{most_points};
+  double largest_bias_N_ = 0.0;
   std::array<std::uint64_t, control::limit_count> periods_in_{};
 };
 

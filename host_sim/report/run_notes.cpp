@@ -43,11 +43,6 @@ std::vector<std::string> run_notes(const scene::Scene& scene, const loop::RunRes
   std::vector<std::string> notes;
   append_current_excess(scene, result, notes);
   append_contact_loss(scene, result, notes);
-  if (scene.drive && scene.drive->bias_limit_N > 0.0) {
-    notes.emplace_back(
-        "No controller answers by a bias force: drive.bias_limit_N changes nothing, and the force "
-        "beside the carrier is 0.");
-  }
   return notes;
 }
 

@@ -170,6 +170,9 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
   if (scene.sensor.vibration) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
+  if (design.bias) {
+    json["bias"] = {{"part", design.bias->part}, {"largest_N", findings.course().largest_bias_N()}};
+  }
   if (design.relearns || design.tracks) {
     json["relearning"] = pauses(findings.pauses());
   }
@@ -275,7 +278,8 @@ RunReport::RunReport(const std::filesystem::path& out, const configure::Experime
       findings_(experiment) {
   const scene::Scene& scene = experiment.plant;
   if (!scene.run.record.empty()) {
-    periods_.emplace(CsvFile(folder_.open(periods_file)), amplitude_unit(scene));
+    periods_.emplace(CsvFile(folder_.open(periods_file)), amplitude_unit(scene),
+                     scene.drive && scene.drive->bias_limit_N > 0.0);
     trace_.emplace(CsvFile(folder_.open(trace_file)), scene.run.record);
   } else {
     folder_.withdraw(periods_file);

@@ -85,7 +85,7 @@ Places run_in_lanes(const std::vector<Rollout>& rollouts, const Places& places) 
 }  // namespace
 
 std::size_t whole_periods(const scene::Scene& scene) {
-  loop::require_usable(scene, loop::Kind::plant);
+  loop::require_usable(scene, scene.controller ? loop::Kind::loop : loop::Kind::plant);
   loop::require_constant_carrier(scene);
   const loop::CarrierGrid grid(scene);
   return grid.count() - (grid.is_whole(grid.count() - 1) ? 0 : 1);

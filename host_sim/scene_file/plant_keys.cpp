@@ -206,8 +206,9 @@ std::vector<Key> drive_keys() {
       {"bias_limit_N", OrZero{of_drive<&Drive::bias_limit_N>}, Number{force_range},
        drive.bias_limit_N,
        "limit of the actuator: largest force that is constant over a carrier period, beside the "
-       "carrier; 0: none. No controller uses it yet, and a run says so",
-       closed_loop + uses::cosine_drive + uses::no_transducer},
+       "carrier; 0: none. Above 0 the controller damps a slow natural mode by it, see "
+       "firmware/control/vibration.md",
+       closed_loop + uses::cosine_drive + uses::no_transducer + uses::damped_vibration},
   };
 }
 

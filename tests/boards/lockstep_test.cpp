@@ -219,6 +219,65 @@ INSTANTIATE_TEST_SUITE_P(Boards, ObservingImage,
                                   std::get<1>(parameter.param);
                          });
 
+/// A unit that answers with a bias: (board, controller).
+class BiasedImage : public Image {
+ protected:
+  hal::BiasedDrive exchange(const hal::MotionSample& sample) {
+    return scene_.sensor.vibration
+               ? board_.exchange_biased(sample)
+               : board_.exchange_biased(static_cast<const hal::Sample&>(sample));
+  }
+};
+
+/// Plausible samples first, so that it drives; then any codes.
+TEST_P(BiasedImage, AnswersAnyConverterCodeAsTheHostDoes) {
+  const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
+  host->set_target(scene_.controller->target_friction_ratio[0].friction_ratio);
+  const auto expected_of = [&](const hal::MotionSample& sample) {
+    return scene_.sensor.vibration ? host->exchange_biased(sample)
+                                   : host->exchange_biased(static_cast<const hal::Sample&>(sample));
+  };
+  std::mt19937 generator(1);
+  const auto code = [&](int k) { return static_cast<std::int32_t>(generator()) >> (k % 12); };
+  constexpr int periods = 110;
+  constexpr int plausible = 100;
+  int biased = 0;
+  for (int k = 0; k < periods; ++k) {
+    const bool wild = k >= plausible;
+    const std::int32_t force = wild ? code(k) : (1 << 29) + (code(k) >> 6);
+    const hal::MotionSample sample{{{force, wild ? code(k) : 1 << 26, false, true},
+                                    wild ? code(k) : code(k) >> 8,
+                                    wild ? code(k) : -(1 << 28),
+                                    false,
+                                    true},
+                                   code(k) >> 8};
+    const hal::BiasedDrive expected = expected_of(sample);
+    const hal::BiasedDrive drive = exchange(sample);
+    ASSERT_EQ(drive.amplitude, expected.amplitude) << "carrier period " << k;
+    ASSERT_EQ(drive.bias, expected.bias) << "carrier period " << k;
+    ASSERT_EQ(drive.state, expected.state) << "carrier period " << k;
+    ASSERT_EQ(drive.limit, expected.limit) << "carrier period " << k;
+    ASSERT_EQ(drive.fault, expected.fault) << "carrier period " << k;
+    biased += drive.bias != 0 ? 1 : 0;
+  }
+  EXPECT_GT(biased, 30);
+  EXPECT_EQ(board_.shut_down(), shut_down);
+}
+
+TEST_P(BiasedImage, HasNoBiasAfterASampleThatDidNotArrive) {
+  const hal::BiasedDrive drive = exchange({{{1, 1, false, false}, 1, 1, false, true}, 1 << 30});
+  EXPECT_EQ(drive.bias, 0);
+  EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::measurement_missing));
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, BiasedImage,
+                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
+                                          testing::Values(SONOGLIDE_BIASED_IMAGES)),
+                         [](const auto& parameter) {
+                           return test_name_of(std::get<0>(parameter.param)) + "_" +
+                                  std::get<1>(parameter.param);
+                         });
+
 /// A board whose image speaks over its serial line.
 class SerialImage : public testing::TestWithParam<std::string> {
  protected:

@@ -83,6 +83,32 @@ TEST(LockstepFrame, OfAVibrationSampleIsLaidOutAsDocumented) {
   EXPECT_EQ(bytes_of(encode(0x01020304, vibration_sample())), with(sample_bytes, more));
 }
 
+TEST(LockstepFrame, OfASampleWithTheMeanVelocityIsLaidOutAsDocumented) {
+  const MotionSample sample{vibration_sample(), -4};
+  const Bytes more{0x24, 0x23, 0x22, 0x21, 0x34, 0x33, 0x32, 0x31,
+                   1,    0,    0,    0,    0xfc, 0xff, 0xff, 0xff};
+  const MotionSampleFrame frame = encode(0x01020304, sample);
+  EXPECT_EQ(bytes_of(frame), with(sample_bytes, more));
+  const MotionSample read = sample_of(frame);
+  EXPECT_EQ(read.mean_velocity, -4);
+  EXPECT_EQ(read.quadrature, 0x31323334);
+  EXPECT_TRUE(read.vibration_at_rail);
+  EXPECT_EQ(read.friction_force, 0x11121314);
+}
+
+TEST(LockstepFrame, OfABiasedDriveIsLaidOutAsDocumented) {
+  auto biased = drive<BiasedDrive>();
+  biased.bias = -3;
+  BiasedDriveFrame frame = encode(0x01020304, biased);
+  put_cost(cost, frame);
+  EXPECT_EQ(bytes_of(frame), with(drive_bytes, {0xfd, 0xff, 0xff, 0xff}));
+  const BiasedDrive read = drive_of(frame);
+  EXPECT_EQ(read.bias, -3);
+  EXPECT_EQ(read.amplitude, 0x41424344);
+  EXPECT_EQ(read.fault, 18);
+  EXPECT_EQ(cost_of(frame).answer, cost.answer);
+}
+
 TEST(LockstepFrame, OfADriveIsLaidOutAsDocumented) {
   DriveFrame frame = encode(0x01020304, drive<Drive>());
   put_cost(cost, frame);

@@ -25,7 +25,9 @@ const std::map<std::string, random_loops::Vibration> vibrations = {
     {"unseen", random_loops::Vibration::unseen},
     {"felt", random_loops::Vibration::sensorless},
     {"damped", random_loops::Vibration::damped},
-    {"alone", random_loops::Vibration::damped_alone}};
+    {"alone", random_loops::Vibration::damped_alone},
+    {"felt_biased", random_loops::Vibration::sensorless_biased},
+    {"damped_biased", random_loops::Vibration::damped_biased}};
 
 struct Options {
   std::uint32_t seed = 1;
@@ -100,8 +102,9 @@ int main(int argument_count, char** arguments) {
       .add_option(
           "--vibration", options.vibration,
           "The same loops with their natural mode damped: felt in the friction (felt), seen by a "
-          "vibration sensor (damped), and without a force sensor (alone)")
-      ->check(CLI::IsMember({"unseen", "felt", "damped", "alone"}))
+          "vibration sensor (damped), and without a force sensor (alone); felt and seen with a bias "
+          "against a slow mode (felt_biased, damped_biased)")
+      ->check(CLI::IsMember({"unseen", "felt", "damped", "alone", "felt_biased", "damped_biased"}))
       ->capture_default_str();
   program.add_option("--set", options.overrides, "KEY=VALUE in the scene of each loop; repeatable")
       ->allow_extra_args(false);

@@ -32,9 +32,10 @@ enum class Limit : std::uint8_t {
   velocity_at_rail,  ///< sliding as fast as the largest vibration, or a velocity converter that
                      ///< stands at its end; the drive is held as below the speed floor
   contact_lost,      ///< a normal vibration opens the contact; only a simulation sees it
+  bias,              ///< the bias force stands at an end of its range
 };
 
-inline constexpr std::size_t limit_count = 13;
+inline constexpr std::size_t limit_count = 14;
 
 /// How the measured ratio stands to its target.
 enum class Settling : std::uint8_t {
@@ -87,6 +88,12 @@ struct DriveCommand {
 template <class Scalar>
 struct ResonantCommand : DriveCommand<Scalar> {
   std::int32_t frequency = 0;  ///< steps of the frequency word from the start
+};
+
+/// Of a unit that damps a slow natural mode by a force that is constant over a carrier period.
+template <class Scalar>
+struct BiasedCommand : DriveCommand<Scalar> {
+  Scalar bias{};  ///< base: its limit; in [-1, 1], along the velocity of the vibration
 };
 
 }  // namespace sonoglide::control

@@ -35,4 +35,10 @@ struct VibrationMeasurement : Measurement<Scalar> {
   Quality vibration_quality = Quality::good;
 };
 
+/// With the mean of the vibration's velocity over the last carrier period.
+template <class Scalar>
+struct MotionMeasurement : VibrationMeasurement<Scalar> {
+  Scalar mean_velocity;  ///< on the base of the sliding velocity
+};
+
 }  // namespace sonoglide::control

@@ -49,6 +49,8 @@ constexpr const char* name(Limit limit) {
       return "velocity_at_rail";
     case Limit::contact_lost:
       return "contact_lost";
+    case Limit::bias:
+      return "bias";
     case Limit::none:
       break;
   }

@@ -25,6 +25,14 @@ Fault inspect_vibration(const VibrationMeasurement<Scalar>& sample) {
   return finite ? Fault::none : Fault::measurement_not_finite;
 }
 
+template <Numbers Known, class Scalar>
+Fault inspect_vibration(const MotionMeasurement<Scalar>& sample) {
+  const auto& vibration = static_cast<const VibrationMeasurement<Scalar>&>(sample);
+  const Fault unusable = inspect_vibration<Known>(vibration);
+  const bool finite = Known == Numbers::finite || numeric::is_finite(sample.mean_velocity);
+  return unusable == Fault::none && !finite ? Fault::measurement_not_finite : unusable;
+}
+
 /// @tparam Force  ForceSensor | NoForceSensor, whose reading is then not looked at
 /// @tparam Known  what is known of the numbers beforehand
 template <class Force, Numbers Known, class Sample>

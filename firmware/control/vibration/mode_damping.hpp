@@ -55,13 +55,6 @@ class ModeDamping : public VibrationPart<ScalarT> {
            numeric::clamp(observer_.feedback(predicted_mode(), error), latest - largest(), latest);
   }
 
-  ObserverT observer_;
-  PastDrive<Scalar, MaxDelay, Before> past_;
-  bool at_most_ = false;
-
- private:
-  static constexpr Scalar largest() { return numeric::from_code<Scalar>(INT32_MAX); }
-
   /// In the last period under way.
   Pair<Scalar> predicted_mode() const {
     Pair<Scalar> mode = observer_.mode();
@@ -72,6 +65,13 @@ class ModeDamping : public VibrationPart<ScalarT> {
     }
     return mode;
   }
+
+  ObserverT observer_;
+  PastDrive<Scalar, MaxDelay, Before> past_;
+  bool at_most_ = false;
+
+ private:
+  static constexpr Scalar largest() { return numeric::from_code<Scalar>(INT32_MAX); }
 };
 
 }  // namespace sonoglide::control

@@ -99,6 +99,10 @@ class SensorlessObserver {
     mode_ = next(mode_, change);
   }
 
+  /// A force that is constant over the period changes at its begin, and with it the displacement
+  /// at which the mode is at rest. @param change  of the second coordinate of w
+  void displace(Scalar change) { mode_.second = mode_.second + change; }
+
   /// One call for each usable reading, after predict().
   /// @param velocity  y; `highest` where the reading is beyond all velocities
   /// @param speed     |Vt| > 0

@@ -27,8 +27,10 @@ template <class ScalarT, int MaxDelay, class ReadingT>
 class SensorlessVibration : public ModeDamping<ScalarT, MaxDelay, 2, SensorlessObserver<ScalarT>> {
   using Damping = ModeDamping<ScalarT, MaxDelay, 2, SensorlessObserver<ScalarT>>;
   using Damping::at_most_;
-  using Damping::observer_;
   using Damping::past_;
+
+ protected:
+  using Damping::observer_;
 
  public:
   static constexpr PartName part_name{"vibration/sensorless_vibration", "SensorlessVibration"};

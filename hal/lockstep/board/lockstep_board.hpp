@@ -28,7 +28,7 @@ class LockstepBoard {
  public:
   // Neither call is inlined: the compiler would move work across the readings of the counter.
 
-  /// @tparam SampleT  Sample | VibrationSample
+  /// @tparam SampleT  Sample | VibrationSample | MotionSample
   template <class SampleT>
   [[gnu::noinline]] bool sample(SampleT& sample) {
     typename FrameOf<SampleT>::Type frame{};
@@ -43,7 +43,7 @@ class LockstepBoard {
     return true;
   }
 
-  /// @tparam DriveT  Drive | ResonantDrive
+  /// @tparam DriveT  Drive | ResonantDrive | BiasedDrive
   template <class DriveT>
   [[gnu::noinline]] void drive(const DriveT& drive) {
     const std::uint32_t taken = counter_.read();

@@ -14,12 +14,6 @@ using Complex = std::complex<double>;
 
 constexpr Complex j{0.0, 1.0};
 
-/// Mean of exp(rate t) over t from 0 to 1.
-Complex mean_of_exponential(Complex rate) {
-  constexpr double few = 1e-5;
-  return std::abs(rate) < few ? 1.0 + 0.5 * rate : (exponential(rate) - 1.0) / rate;
-}
-
 Eigen::Vector2d parts(Complex z) {
   return {z.real(), z.imag()};
 }
@@ -45,12 +39,6 @@ Matrix riccati(Matrix a, Matrix b_squared, const Matrix& q) {
 
 constexpr double omega = numeric::two_pi;
 
-/// λ of the free motion.
-Complex rate_of(const Resonator& resonator) {
-  const double decay = 0.5 * resonator.damping;
-  return {-decay, numeric::sqrt(resonator.stiffness - decay * decay)};
-}
-
 /// X of the steady vibration Re(X e^{jωt}) at full drive.
 Complex forced_displacement(const Resonator& resonator) {
   return resonator.push / Complex(resonator.stiffness - omega * omega, resonator.damping * omega);
@@ -70,6 +58,16 @@ Complex mean_over_changes(Complex rate, int parts) {
 }
 
 }  // namespace
+
+std::complex<double> rate_of(const Resonator& resonator) {
+  const double decay = 0.5 * resonator.damping;
+  return {-decay, numeric::sqrt(resonator.stiffness - decay * decay)};
+}
+
+std::complex<double> mean_of_exponential(std::complex<double> rate) {
+  constexpr double few = 1e-5;
+  return std::abs(rate) < few ? 1.0 + 0.5 * rate : (exponential(rate) - 1.0) / rate;
+}
 
 double ramp_kick(const Resonator& resonator, int parts) {
   const Complex rate = rate_of(resonator);

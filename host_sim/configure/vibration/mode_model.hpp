@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 
 namespace sonoglide::configure {
 
@@ -25,6 +26,12 @@ struct ModeModel {
   Eigen::Matrix2d output;
   Eigen::Matrix2d square;
 };
+
+/// λ of the free motion, per carrier period.
+std::complex<double> rate_of(const Resonator& resonator);
+
+/// Mean of exp(rate t) over t from 0 to 1.
+std::complex<double> mean_of_exponential(std::complex<double> rate);
 
 /// @param resonator  with a natural mode: damping²/4 < stiffness; not undamped on the carrier
 ModeModel mode_model(const Resonator& resonator);

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "firmware/control/limits/current_limit.hpp"
+#include "firmware/control/vibration/biased_damping.hpp"
 #include "firmware/control/vibration/damped_vibration.hpp"
 #include "firmware/control/vibration/resonant_vibration.hpp"
 #include "firmware/control/vibration/sensorless_vibration.hpp"
@@ -235,6 +236,28 @@ typename control::SensorlessVibration<Scalar, MaxDelay, Reading>::Parameters par
   all.reading = parameters(design, Type<Reading>{});
   all.backwards = sensorless.backwards;
   all.delay = sensorless.delay_periods;
+  return all;
+}
+
+template <class Scalar, int MaxDelay>
+typename control::BiasedDampedVibration<Scalar, MaxDelay>::Parameters parameters(
+    const ControlDesign& design, Type<control::BiasedDampedVibration<Scalar, MaxDelay>> /*part*/) {
+  return {parameters(design, Type<control::DampedVibration<Scalar, MaxDelay>>{}),
+          {split<Scalar>(design.bias->gain)}};
+}
+
+template <class Scalar, int MaxDelay, class Reading>
+typename control::BiasedSensorlessVibration<Scalar, MaxDelay, Reading>::Parameters parameters(
+    const ControlDesign& design,
+    Type<control::BiasedSensorlessVibration<Scalar, MaxDelay, Reading>> /*part*/) {
+  const double mode_unit = design.in_mode<SensorlessDesign>()->mode_unit;
+  typename control::BiasedSensorlessVibration<Scalar, MaxDelay, Reading>::Parameters all{};
+  all.vibration =
+      parameters(design, Type<control::SensorlessVibration<Scalar, MaxDelay, Reading>>{});
+  all.bias = {split<Scalar>(design.bias->gain * mode_unit)};
+  all.mean_of_first = scaled_within<Scalar>(design.bias->mean_of_first);
+  all.mean_of_second = scaled_within<Scalar>(design.bias->mean_of_second);
+  all.displacement = split<Scalar>(2.0 * design.bias->per_mode / mode_unit);
   return all;
 }
 

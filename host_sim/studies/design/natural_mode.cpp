@@ -11,6 +11,8 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/experiment.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/configure/vibration/bias_design.hpp"
 #include "host_sim/configure/vibration/ramp_design.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
@@ -154,6 +156,31 @@ bool is_better(const QuietDrive& a, const QuietDrive& b) {
          std::tuple(b.plants.never, b.plants.late, b.changing_periods);
 }
 
+/// @param nominal  a trial at the scene's carrier
+std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_range) {
+  const configure::NominalPlant plant = configure::nominal_plant(nominal);
+  const double natural =
+      plant.natural_rad_per_s() / (numeric::two_pi * nominal.drive->frequency_Hz);
+  if (nominal.transducer || nominal.drive->waveform != scene::Waveform::cosine ||
+      !(natural < slow_mode) ||
+      !(natural < configure::fastest_biased_mode(nominal.drive->delay_periods))) {
+    return std::nullopt;
+  }
+  BiasedDrive biased;
+  biased.limit_N = configure::wanted_bias_N(plant.friction_N, nominal.drive->max_force_amplitude_N,
+                                            natural, nominal.drive->delay_periods);
+  nominal.controller->vibration = scene::VibrationControl::damped;
+  nominal.controller->shaping = std::nullopt;
+  nominal.sensor.vibration = scene::VibrationSensor::velocity;
+  nominal.drive->bias_limit_N = biased.limit_N;
+  try {
+    biased.plants = try_plants(nominal, stiffness_range);
+  } catch (const configure::ConfigurationError&) {
+    return std::nullopt;  // no such loop
+  }
+  return biased;
+}
+
 std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
   constexpr std::size_t worth_it = 2;  // more plants than at the scene's own carrier
   const auto rank = [&](std::size_t i) {
@@ -206,6 +233,7 @@ std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
     study.carriers[i] = carrier_point(tried_at(driven, own_Hz * (1.0 + away)), study);
   });
   study.recommended = recommended_carrier(study);
+  study.bias = biased_drive(tried_at(scene, own_Hz), study.stiffness_range);
   return study;
 }
 

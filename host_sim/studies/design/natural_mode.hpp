@@ -36,6 +36,12 @@ struct CarrierPoint {
   Tally plants = {};
 };
 
+/// A loop with a bias against a slow mode, seen by a velocity sensor.
+struct BiasedDrive {
+  double limit_N = 0.0;  ///< with which the bias is seldom at its end
+  Tally plants = {};     ///< at the scene's carrier
+};
+
 struct NaturalModeStudy {
   double natural_Hz = 0.0;
   double range = 0.0;              ///< by which the natural frequency may be off, relative
@@ -51,7 +57,12 @@ struct NaturalModeStudy {
   /// The nearest at which the most plants settle promptly, and the scene's own where no other settles
   /// two more; none if none does.
   std::optional<std::size_t> recommended;
+  std::optional<BiasedDrive>
+      bias;  ///< of a mode below slow_mode carriers, under a force of a cosine
 };
+
+/// Below this part of the carrier frequency the friction itself moves the mass, and the drive hardly does.
+inline constexpr double slow_mode = 0.09;
 
 inline constexpr int prompt_periods = 60;  ///< a millisecond at 60 kHz
 inline constexpr int step_periods = 100;   ///< that a target lasts in the loops that are tried

@@ -107,6 +107,16 @@ Advice controller_advice(const NaturalModeStudy& mode) {
                   found)};
 }
 
+Advice bias_advice(const NaturalModeStudy& mode) {
+  return {"Bias",
+          fmt::format("Below {:g} carrier frequencies the friction itself moves the mass, which no "
+                      "amplitude of the drive prevents. A force that is constant over a carrier "
+                      "period does: drive.bias_limit_N = {:.3g} or more, with "
+                      "controller.vibration = \"damped\", best with sensor.vibration = "
+                      "\"velocity\". With these of {}, {}.",
+                      slow_mode, mode.bias->limit_N, tried(mode), tally_text(mode.bias->plants))};
+}
+
 Advice carrier_advice(const NaturalModeStudy& mode) {
   const CarrierPoint& own = mode.carriers[mode.own];
   const auto settled = [&](const CarrierPoint& point) {
@@ -187,7 +197,12 @@ output::Table drives_table(const NaturalModeStudy& mode) {
 }  // namespace
 
 std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
-  return {mode_advice(mode), controller_advice(mode), carrier_advice(mode)};
+  std::vector<Advice> all = {mode_advice(mode), controller_advice(mode)};
+  if (mode.bias) {
+    all.push_back(bias_advice(mode));
+  }
+  all.push_back(carrier_advice(mode));
+  return all;
 }
 
 output::Section natural_mode_section(const DesignStudy& study, const NaturalModeStudy& mode) {
@@ -238,6 +253,12 @@ ordered_json to_json(const NaturalModeStudy& mode) {
   json["recommended_frequency_Hz"] =
       mode.recommended ? ordered_json(mode.carriers[*mode.recommended].frequency_Hz)
                        : ordered_json(nullptr);
+  if (mode.bias) {
+    json["bias"] = {{"limit_N", mode.bias->limit_N},
+                    {"settled", mode.bias->plants.settled},
+                    {"late", mode.bias->plants.late},
+                    {"never", mode.bias->plants.never}};
+  }
   return json;
 }
 

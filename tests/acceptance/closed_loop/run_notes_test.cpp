@@ -61,10 +61,13 @@ TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
   EXPECT_NE(told.summary["control"]["notes"].dump().find("opens the contact"), std::string::npos);
 }
 
-TEST(RunNotesTest, ABiasThatNobodyUsesIsTold) {
-  const Told told = run("target_step", "--set drive.bias_limit_N=20");
-  EXPECT_NE(told.terminal.find("drive.bias_limit_N changes nothing"), std::string::npos);
-  EXPECT_NE(told.summary["control"]["notes"].dump().find("drive.bias_limit_N changes nothing"),
+TEST(RunNotesTest, ABiasIsToldWithWhatItTakesAway) {
+  const Told told = run("damped_step",
+                        "--set drive.bias_limit_N=4 --set plant.stiffness_N_per_m=2.5e6 "
+                        "--set drive.max_force_amplitude_N=2000");
+  EXPECT_NE(told.summary["control"]["notes"].dump().find("damped by a bias force of up to 4 N"),
+            std::string::npos);
+  EXPECT_EQ(told.summary["control"]["notes"].dump().find("no change of the amplitude"),
             std::string::npos);
 }
 

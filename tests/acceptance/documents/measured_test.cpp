@@ -9,6 +9,7 @@
 #include <regex>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "tests/common/csv/csv.hpp"
@@ -77,6 +78,23 @@ TEST(MeasuredFigures, OfARampedDriveAreThoseOfItsTable) {
       const std::string line =
           fmt::format("| {} | {} | {} | {} |", name, model, shares(loops_of(step, model, loops)),
                       shares(loops_of(ramped, model, loops)));
+      EXPECT_NE(text.find(line), std::string::npos) << line;
+    }
+  }
+}
+
+TEST(MeasuredFigures, OfABiasAreThoseOfItsTables) {
+  const std::string text = document();
+  const auto table = [](const char* name) {
+    return csv::read_file(source / "tests/random_loops" / (std::string(name) + ".csv"));
+  };
+  for (const auto& [name, without, with] :
+       {std::tuple("sensorless", table("felt"), table("felt_biased")),
+        std::tuple("vibration sensor", table("damped"), table("damped_biased"))}) {
+    for (const char* model : {"exact", "wrong"}) {
+      const std::string line = fmt::format("| {} | {} | {} | {} |", name, model,
+                                           shares(loops_of(without, model, "below 0.064")),
+                                           shares(loops_of(with, model, "below 0.064")));
       EXPECT_NE(text.find(line), std::string::npos) << line;
     }
   }

@@ -170,7 +170,8 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.drive->max_force_slew_N_per_s, 1e8);
   EXPECT_EQ(scene.drive->interpolation, scene::Interpolation::linear);
   EXPECT_EQ(scene.drive->codes_per_period, 4);
-  EXPECT_EQ(scene.drive->bias_limit_N, 5.0);
+  EXPECT_EQ(scene.drive->bias_limit_N, 0.0);
+  EXPECT_EQ(read_text(damped_closed_loop, "s").drive->bias_limit_N, 5.0);
   EXPECT_EQ(scene.solver.tolerance, 1e-12);
   EXPECT_EQ(scene.solver.order, 16);
   EXPECT_EQ(scene.run.duration_s, 4e-3);

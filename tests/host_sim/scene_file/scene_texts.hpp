@@ -42,7 +42,7 @@ damping = 0.9
 /// A loop that damps the natural mode under a drive that is a force.
 inline constexpr const char* damped_closed_loop = R"([plant]
 mass_kg = 0.02
-stiffness_N_per_m = 133e6
+stiffness_N_per_m = 2.5e6
 [friction]
 law = "coulomb"
 coefficient = 0.1
@@ -51,6 +51,7 @@ velocity_m_per_s = 0.0267
 [drive]
 frequency_Hz = 60e3
 max_force_amplitude_N = 1920
+bias_limit_N = 5
 [run]
 duration_s = 2e-3
 [controller]
@@ -269,7 +270,6 @@ max_force_amplitude_N = 1920
 max_force_slew_N_per_s = 1e8
 interpolation = "linear"
 codes_per_period = 4
-bias_limit_N = 5
 [solver]
 method = "event_taylor"
 tolerance = 1e-12

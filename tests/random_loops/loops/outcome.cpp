@@ -65,7 +65,7 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration,
   try {
     const experiment::Experiment experiment =
         experiment::read_text(scene_text(outcome.loop, vibration), "random.toml", overrides);
-    if (vibration == Vibration::sensorless) {
+    if (vibration == Vibration::sensorless || vibration == Vibration::sensorless_biased) {
       outcome.loop.calibration_s =
           *experiment.plant.controller->calibration_s;  // absent: by default
     }

@@ -276,6 +276,19 @@ void write_friction(SceneText& text, const RandomLoop& loop) {
   text.number_unless_zero("normal_contact_stiffness_N_per_m", own.normal_contact_stiffness_N_per_m);
 }
 
+/// A bias limit of about what design recommends, for a slow mode. A sensorless loop does not tell the
+/// slowest ones, however its stiffness is off.
+void write_bias(SceneText& text, const RandomLoop& loop, Vibration vibration) {
+  constexpr double told = 1.03 / 192.0;
+  const double slowest = vibration == Vibration::sensorless_biased ? told : 0.0;
+  const bool biased =
+      vibration == Vibration::sensorless_biased || vibration == Vibration::damped_biased;
+  if (biased && slowest < loop.mode_per_carrier && loop.mode_per_carrier < slow_mode) {
+    text.number("bias_limit_N", 2.0 * friction_N(loop) +
+                                    0.056 * loop.mode_per_carrier * loop.max_force_amplitude_N);
+  }
+}
+
 void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   std::string targets;
   double begin_s = 0.0;
@@ -299,7 +312,8 @@ void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibrati
 
 void write_sensor(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   const SensorNumbers& sensor = loop.sensor;
-  const bool damped = vibration != Vibration::unseen && vibration != Vibration::sensorless;
+  const bool damped = vibration != Vibration::unseen && vibration != Vibration::sensorless &&
+                      vibration != Vibration::sensorless_biased;
   if (sensor.ideal() && !damped) {
     return;
   }
@@ -403,6 +417,7 @@ std::string scene_text(const RandomLoop& loop, Vibration vibration) {
   text.table("drive");
   text.number("frequency_Hz", loop.frequency_Hz);
   text.number("max_force_amplitude_N", loop.max_force_amplitude_N);
+  write_bias(text, loop, vibration);
   text.table("solver");
   text.number("tolerance", 1e-8);
   write_controller(text, loop, vibration);

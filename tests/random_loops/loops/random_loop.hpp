@@ -123,8 +123,13 @@ enum class Vibration {
   sensorless,  ///< controller.vibration = "damped", felt in the friction; q31 in place of q15
   /// The same, seen by a pick-up of 14 bits.
   damped,
-  damped_alone,  ///< the same without a force sensor
+  damped_alone,       ///< the same without a force sensor
+  sensorless_biased,  ///< as sensorless, with a bias against a mode below slow_mode
+  damped_biased,      ///< likewise as damped
 };
+
+/// Natural over carrier frequency, below which a loop that may has a bias.
+inline constexpr double slow_mode = 0.09;
 
 /// Its scene, TOML that the program reads.
 std::string scene_text(const RandomLoop& loop, Vibration vibration = Vibration::unseen);

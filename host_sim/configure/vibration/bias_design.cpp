@@ -1,0 +1,77 @@
+#include "host_sim/configure/vibration/bias_design.hpp"
+
+#include <fmt/format.h>
+
+#include <complex>
+
+#include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/scene/bound.hpp"
+
+namespace sonoglide::configure {
+namespace {
+
+/// Of the largest stable part: 0.35 with a delay of one period, where it is 0.83.
+constexpr double taken = 0.42;
+
+double cos_of_turns(double turns) {
+  return 1.0 - 2.0 * numeric::sin_pi(turns) * numeric::sin_pi(turns);
+}
+
+/// From the period whose mean velocity is known to the answer's. The sensorless loop predicts the mode
+/// through its delay and could answer as if there were none; what its observer lags behind is taken for
+/// a period.
+int delay_periods(const scene::Scene& scene) {
+  return scene.sensor.vibration ? scene.drive->delay_periods : 1;
+}
+
+}  // namespace
+
+double fastest_biased_mode(int delay_periods) {
+  return 0.25 / (delay_periods + 1);
+}
+
+double largest_bias_part(double natural_per_carrier, int delay_periods) {
+  const double angle = numeric::two_pi * natural_per_carrier;
+  const double edge = fastest_biased_mode(delay_periods);
+  const double half_sine = numeric::sin_pi(natural_per_carrier);
+  const double per_displacement = angle * angle / (2.0 * half_sine * half_sine);
+  return per_displacement * (cos_of_turns(natural_per_carrier) - cos_of_turns(edge)) /
+         numeric::sin_pi(2.0 * edge);
+}
+
+double wanted_bias_N(double friction_N, double force_N, double natural_per_carrier,
+                     int delay_periods) {
+  const double part = taken * largest_bias_part(natural_per_carrier, delay_periods);
+  return 2.0 * friction_N + part * natural_per_carrier * force_N / numeric::two_pi;
+}
+
+BiasDesign design_bias(const scene::Scene& scene, const NominalPlant& plant,
+                       const Resonator& resonator) {
+  const int delay = delay_periods(scene);
+  const double natural = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
+  if (!(natural < fastest_biased_mode(delay))) {
+    throw ConfigurationError(
+        "drive.bias_limit_N",
+        fmt::format(
+            "is of no use: the natural mode at {:.3g} of the carrier frequency turns too far "
+            "in the delay of {} carrier periods; allowed: 0, or a mode below {:.3g}",
+            natural, delay, fastest_biased_mode(delay)));
+  }
+  BiasDesign design;
+  design.limit_N = scene.drive->bias_limit_N;
+  design.natural = natural;
+  design.part = taken * largest_bias_part(natural, delay);
+  const double push =
+      resonator.push * design.limit_N / (scene.max_drive_force_N() * plant.force_factor);
+  design.gain = design.part / push;
+  const std::complex<double> rate = rate_of(resonator);
+  design.per_mode = push / rate.imag();
+  const std::complex<double> mean = mean_of_exponential(rate);
+  design.mean_of_first = mean.real();
+  design.mean_of_second = -mean.imag();
+  return design;
+}
+
+}  // namespace sonoglide::configure
