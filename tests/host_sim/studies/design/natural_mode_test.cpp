@@ -65,6 +65,19 @@ TEST(NaturalModeTest, KeepsACarrierThatIsFarFromTrouble) {
   EXPECT_EQ(found.drives[0].quieting, configure::Quieting::notch);
 }
 
+TEST(NaturalModeTest, RecommendsABiasAgainstASlowMode) {
+  scene::Scene slow = table_1();
+  slow.plant.stiffness_N_per_m = 2.558e6;  // 0.03 of the carrier
+  slow.drive->max_force_amplitude_N = 2200.0;
+  const NaturalModeStudy found = study_of(slow);
+  ASSERT_TRUE(found.bias);
+  // 2 Fc, and g a F/2π of the jump of full drive.
+  EXPECT_NEAR(found.bias->limit_N, 0.039 + 0.33 * 0.03 * 2200.0 / (2.0 * tests::pi), 0.05);
+  EXPECT_EQ(found.bias->plants.settled, found.plants);
+  EXPECT_FALSE(study_of(table_1()).bias);
+  EXPECT_FALSE(study_of(beside_a_multiple()).bias);
+}
+
 TEST(NaturalModeTest, TakesTheToleranceOfTheScene) {
   scene::Scene scene = table_1();
   const double stiffness = scene.plant.stiffness_N_per_m;
