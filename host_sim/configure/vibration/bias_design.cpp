@@ -55,8 +55,8 @@ BiasDesign design_bias(const scene::Scene& scene, const NominalPlant& plant,
     throw ConfigurationError(
         "drive.bias_limit_N",
         fmt::format(
-            "is of no use: the natural mode at {:.3g} of the carrier frequency turns too far "
-            "in the delay of {} carrier periods; allowed: 0, or a mode below {:.3g}",
+            "is of no use: the natural mode is at {:.3g} of the carrier frequency, and with a delay "
+            "of {} carrier periods a bias damps one that is under {:.3g}; allowed: 0",
             natural, delay, fastest_biased_mode(delay)));
   }
   BiasDesign design;
