@@ -129,6 +129,18 @@ void require_no_contradiction(const scene::Scene& scene) {
   }
 }
 
+/// What the inverse map of a tracked friction lacks; empty: nothing.
+std::string missing_for_map(const scene::Scene& scene, const ControlDesign& design) {
+  if (design.map != scene::FrictionMap::dahl || !scene::has_own_map(scene.friction.law)) {
+    return "friction.law = \"dahl\"";
+  }
+  if (scene.drive->waveform != scene::Waveform::cosine) {
+    return "drive.waveform = \"cosine\"";
+  }
+  return design.maps_friction ? std::string()
+                              : "a friction force below 2 % of the largest drive force";
+}
+
 void require_trackable(const scene::Scene& scene, const ControlDesign& design) {
   const scene::Controller& controller = *scene.controller;
   const auto refuse = [](const char* key, const std::string& message) {
@@ -136,23 +148,18 @@ void require_trackable(const scene::Scene& scene, const ControlDesign& design) {
   };
   if (controller.vibration) {
     refuse("controller.friction",
-           "\"tracked\" is for a drive that is fed forward; allowed with controller.vibration: "
-           "\"trusted\", \"calibrated\"");
+           fmt::format("\"tracked\" is for a drive that is fed forward; allowed with "
+                       "controller.vibration = \"{}\": \"trusted\", \"calibrated\"",
+                       scene::name_of(scene::vibration_controls, *controller.vibration)));
   }
   if (controller.arithmetic == scene::Arithmetic::q15) {
     refuse("controller.arithmetic",
            "\"q15\" is too coarse for controller.friction = \"tracked\"; allowed: \"float32\", "
            "\"q31\", \"float64\"");
   }
-  if (design.map != scene::FrictionMap::dahl || !design.maps_friction) {
-    refuse(
-        "controller.friction",
-        "\"tracked\" needs the map of a dahl contact under a cosine, with a friction force below "
-        "2 % of the largest drive force; allowed: \"trusted\", \"calibrated\"");
-  }
-  if (controller.relearn_every_s) {
-    refuse("controller.relearn_every_s",
-           "not used with controller.friction = \"tracked\"; remove it");
+  if (const std::string missing = missing_for_map(scene, design); !missing.empty()) {
+    refuse("controller.friction",
+           fmt::format("\"tracked\" needs {}; allowed: \"trusted\", \"calibrated\"", missing));
   }
 }
 
@@ -211,6 +218,10 @@ void design_relearning(const scene::Scene& scene, const NominalPlant& plant,
                        ControlDesign& design) {
   if (!scene.controller->relearn_every_s) {
     return;
+  }
+  if (scene.controller->friction == scene::FrictionSource::tracked) {
+    throw ConfigurationError("controller.relearn_every_s",
+                             "not used with controller.friction = \"tracked\"; remove it");
   }
   constexpr double presliding_travels = 6.0;  // 0.15 % of the force is left
   constexpr double filter_settling = 5.0;     // 0.7 % of it

@@ -23,8 +23,43 @@ Experiment read(const scene_file::Document& document,
   }
 }
 
+namespace {
+
+/// Of the first of these overrides with which that key is wrong; none if it is without them too.
+std::optional<scene_file::Location> culprit(const scene_file::Source& source,
+                                            const std::vector<std::string>& overrides,
+                                            const std::string& key) {
+  std::vector<std::string> some;
+  for (const std::string& each : overrides) {
+    try {
+      experiment::read(scene_file::Document(source, some));
+    } catch (const scene_file::SceneError& error) {
+      if (error.key() == key) {
+        break;
+      }
+    }
+    some.push_back(each);
+  }
+  return some.empty() ? std::nullopt : std::optional(scene_file::Location{"--set", some.size(), 1});
+}
+
+}  // namespace
+
 Experiment read(const scene_file::Source& source, const std::vector<std::string>& overrides) {
-  return experiment::read(scene_file::Document(source, overrides));
+  const scene_file::Document document(source, overrides);
+  try {
+    return experiment::read(document);
+  } catch (const scene_file::SceneError& error) {
+    // What an override has made unusable is told at the override, if it has no line of its own.
+    if (error.file() == "--set" || document.gives(error.key())) {
+      throw;
+    }
+    const std::optional<scene_file::Location> place = culprit(source, overrides, error.key());
+    if (!place) {
+      throw;
+    }
+    throw scene_file::SceneError(*place, error.key(), error.message());
+  }
 }
 
 Experiment read_text(std::string_view text, const std::string& file,

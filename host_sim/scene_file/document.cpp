@@ -64,16 +64,22 @@ const SceneTable* Document::find_true(std::string_view name) const {
   return found == true_tables_.end() ? find(name) : &found->second;
 }
 
-Location Document::place_of(std::string_view dotted_key) const {
+const GivenValue* Document::given(std::string_view dotted_key) const {
   const std::size_t dot = dotted_key.find('.');
   const SceneTable* table = find(dotted_key.substr(0, dot));
-  if (table == nullptr) {
-    return start();
+  if (table == nullptr || dot == std::string_view::npos) {
+    return nullptr;
   }
-  const auto entry = dot == std::string_view::npos
-                         ? table->entries.end()
-                         : table->entries.find(dotted_key.substr(dot + 1));
-  return entry == table->entries.end() ? table->place : entry->second.value_place;
+  const auto entry = table->entries.find(dotted_key.substr(dot + 1));
+  return entry == table->entries.end() ? nullptr : &entry->second;
+}
+
+Location Document::place_of(std::string_view dotted_key) const {
+  if (const GivenValue* value = given(dotted_key)) {
+    return value->value_place;
+  }
+  const SceneTable* table = find(dotted_key.substr(0, dotted_key.find('.')));
+  return table == nullptr ? start() : table->place;
 }
 
 void Document::collect() {

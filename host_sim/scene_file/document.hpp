@@ -61,6 +61,8 @@ class Document {
   /// Where the value of `TABLE.KEY` stands, or a whole table; what is left to its default stands
   /// where its table does, or at the beginning of the file.
   Location place_of(std::string_view dotted_key) const;
+  /// Whether `TABLE.KEY` has a value in the file or by an override.
+  bool gives(std::string_view dotted_key) const { return given(dotted_key) != nullptr; }
 
   /// Of the source.
   const std::string& name() const { return name_; }
@@ -69,6 +71,7 @@ class Document {
   Location start() const { return {file_, 1, 1}; }
 
  private:
+  const GivenValue* given(std::string_view dotted_key) const;
   void collect();
   void collect_table(const std::string& name, const Location& place, const toml::table& table);
   void apply_override(const std::string& text, std::size_t ordinal);

@@ -58,6 +58,14 @@ stiffness = 1.04
 
 inline const std::string closed_loop = table_1_closed_loop + control_of_1_ms;
 
+inline const std::string tracked_loop = table_1_closed_loop + R"([run]
+duration_s = 1e-3
+[controller]
+arithmetic = "float32"
+friction = "tracked"
+target_friction_ratio = [[0.0, 0.4]]
+)";
+
 inline const std::string resonant_loop = R"([plant]
 mass_kg = 0.02
 stiffness_N_per_m = 2842446067.7

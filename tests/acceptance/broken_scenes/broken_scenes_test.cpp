@@ -73,7 +73,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "18:17: controller.calibration_s: 0 s contradicts controller.friction = \"calibrated\"; allowed: "
      "above 0, or remove it"},
     {"tracked_and_relearnt", closed_loop, "arithmetic = \"float32\"",
-     "arithmetic = \"float32\"\nfriction = \"tracked\"\nrelearn_every_s = 0.1",
+     "arithmetic = \"float32\"\nfriction = \"tracked\"\nrelearn_every_s = 1e-4",
      "18:19: controller.relearn_every_s: not used with controller.friction = \"tracked\"; remove it"},
     {"tracked_in_q15", closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"q15\"\nfriction = \"tracked\"",
@@ -81,11 +81,19 @@ const std::vector<BrokenScene> broken_scenes = {
      "allowed: \"float32\", \"q31\", \"float64\""},
     {"tracked_without_a_dahl_map", coulomb_closed_loop, "arithmetic = \"float32\"",
      "arithmetic = \"float32\"\nfriction = \"tracked\"",
-     "16:12: controller.friction: \"tracked\" needs the map of a dahl contact under a cosine, with a "
-     "friction force below 2 % of the largest drive force; allowed: \"trusted\", \"calibrated\""},
+     "16:12: controller.friction: \"tracked\" needs friction.law = \"dahl\"; allowed: \"trusted\", "
+     "\"calibrated\""},
+    {"tracked_under_a_square_wave", tracked_loop, "max_force_amplitude_N = 1920.0",
+     "max_force_amplitude_N = 1920.0\nwaveform = \"square\"",
+     "18:12: controller.friction: \"tracked\" needs drive.waveform = \"cosine\"; allowed: "
+     "\"trusted\", \"calibrated\""},
+    {"tracked_with_a_weak_drive", tracked_loop, "max_force_amplitude_N = 1920.0",
+     "max_force_amplitude_N = 0.9",
+     "17:12: controller.friction: \"tracked\" needs a friction force below 2 % of the largest drive "
+     "force; allowed: \"trusted\", \"calibrated\""},
     {"tracked_and_damped", damped_loop, "\"damped\"", "\"damped\"\nfriction = \"tracked\"",
      "19:12: controller.friction: \"tracked\" is for a drive that is fed forward; allowed with "
-     "controller.vibration: \"trusted\", \"calibrated\""},
+     "controller.vibration = \"damped\": \"trusted\", \"calibrated\""},
     // Names
     {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
      "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},

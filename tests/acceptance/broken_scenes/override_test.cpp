@@ -26,7 +26,7 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: plant.mass_kg: no value; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the "
      "key"},
     {"removed", "--set plant.mass_kg=",
-     "scene.toml:1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
+     "--set:1:1: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
     {"no_key", "--set =3",
      "--set:1:1: --set: no key; allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key"},
     {"whole_table", "--set plant=3",
@@ -91,6 +91,10 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: sensor: not used in open loop, without a [controller] table; remove it"},
     {"excluded_by_the_file", "--set run.duration_s=1",
      "--set:1:1: run.duration_s: excludes duration_periods; allowed: one of the two"},
+    {"removes_what_is_needed", "--set run.record= --set plant.mass_kg=",
+     "--set:2:1: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
+    {"needs_what_the_file_lacks", "--set friction.law=lugre",
+     "--set:1:1: friction.static_coefficient: missing; required: a number, 0.1 to 100"},
     {"last_one_wins", "--set plant.mass_kg=1 --set plant.mass_kg=0",
      "--set:2:1: plant.mass_kg: 0 is out of range; allowed: 1e-12 to 1e+06 kg"},
 };
