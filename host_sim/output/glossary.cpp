@@ -104,7 +104,8 @@ std::string text_of(const Chart& chart) {
 }
 
 std::string text_of(const Page& page) {
-  std::string text = page.title + '\n' + page.lead + '\n' + joined(page.warnings, "\n") + '\n';
+  std::string text = page.title + '\n' + page.lead + '\n' + joined(page.warnings, "\n") + '\n' +
+                     joined(page.notes, "\n") + '\n';
   for (const Table& table : page.tables) {
     text += text_of(table);
   }

@@ -42,6 +42,7 @@ struct Page {
   nlohmann::ordered_json scene = nullptr;
   /// Of all random numbers, where there are some.
   std::optional<std::uint64_t> seed = std::nullopt;
+  std::vector<std::string> notes = {};  ///< below the warnings: good to know, nothing is wrong
 };
 
 /// The page as one self-contained HTML file: no network request, zoom and hover on every chart.

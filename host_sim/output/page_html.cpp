@@ -35,14 +35,16 @@ void check(const Chart& chart) {
   }
 }
 
-void append_warnings(std::string& html, const std::vector<std::string>& warnings) {
-  if (warnings.empty()) {
+/// @param heading  of one sentence; of more with an s
+void append_box(std::string& html, const std::string& kind, const std::string& heading,
+                const std::vector<std::string>& sentences) {
+  if (sentences.empty()) {
     return;
   }
-  html += fmt::format("<aside class=\"warnings\">\n<h2>{}</h2>\n<ul>\n",
-                      warnings.size() == 1 ? "Warning" : "Warnings");
-  for (const std::string& warning : warnings) {
-    html += fmt::format("<li>{}</li>\n", escaped(warning));
+  html += fmt::format("<aside class=\"{}\">\n<h2>{}{}</h2>\n<ul>\n", kind, heading,
+                      sentences.size() == 1 ? "" : "s");
+  for (const std::string& sentence : sentences) {
+    html += fmt::format("<li>{}</li>\n", escaped(sentence));
   }
   html += "</ul>\n</aside>\n";
 }
@@ -124,7 +126,8 @@ std::string to_html(const Page& page) {
   append_paragraph(html, "lead", page.lead);
   append_what_was_run(html, page);
   html += "</header>\n";
-  append_warnings(html, page.warnings);
+  append_box(html, "warnings", "Warning", page.warnings);
+  append_box(html, "notes", "Note", page.notes);
   for (const Table& table : page.tables) {
     append_table(html, table);
   }

@@ -28,6 +28,17 @@ void append_changes(std::string& html, const ordered_json& changed) {
   append_table(html, table);
 }
 
+/// A line breaks between words, not at the dashes of an option.
+std::string unbroken_words(const std::string& text) {
+  std::string html;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = text.find(' ', begin);
+    html += fmt::format("{}<span>{}</span>", html.empty() ? "" : " ",
+                        escaped(text.substr(begin, end == std::string::npos ? end : end - begin)));
+  }
+  return html;
+}
+
 /// A row for each key; those that were changed are marked by a word and a colour.
 void append_scene(std::string& html, const ordered_json& scene, const ordered_json& changed) {
   std::string rows;
@@ -56,7 +67,8 @@ void append_what_was_run(std::string& html, const Page& page) {
   const ordered_json asked = program_json();
   html += "<div class=\"run\">\n<dl>\n";
   if (asked.at("command_line").is_string()) {
-    append_fact(html, "Command", fmt::format("<code>{}</code>", escaped(program().command_line)));
+    append_fact(html, "Command",
+                fmt::format("<code>{}</code>", unbroken_words(program().command_line)));
   }
   append_fact(html, "Version", fmt::format("sonoglide {}", asked.at("version").get<std::string>()));
   if (page.seed) {

@@ -33,6 +33,20 @@ std::vector<double> limits_N(const scene::Friction& friction, const std::vector<
   return limits;
 }
 
+/// As it passes: at once at the beginning of a period, or along a line from 0 to the amplitude at the
+/// end of each.
+output::Curve amplitude_curve(const scene::Scene& scene, const std::vector<double>& begin_s,
+                              std::vector<double> amplitude) {
+  if (scene.drive->interpolation == scene::Interpolation::step || begin_s.empty()) {
+    return {"amplitude", std::move(amplitude), Line::stepped};
+  }
+  std::vector<double> end_s(begin_s.begin() + 1, begin_s.end());
+  end_s.push_back(scene.run.duration_s);
+  end_s.insert(end_s.begin(), begin_s.front());
+  amplitude.insert(amplitude.begin(), 0.0);
+  return {"amplitude", std::move(amplitude), Line::joined, std::move(end_s)};
+}
+
 }  // namespace
 
 output::Curve level(const char* label, const std::vector<double>& x, double value) {
@@ -82,7 +96,7 @@ output::Section course_section(const scene::Scene& scene, const Course::Curve& c
     const AmplitudeUnit unit = amplitude_unit(scene);
     const double most = scene.max_drive_force_N() * unit.per_N;
     std::vector<output::Curve> amplitudes = {
-        {"amplitude", unit.of(curve.y(Course::drive_amplitude_N)), Line::stepped}};
+        amplitude_curve(scene, time, unit.of(curve.y(Course::drive_amplitude_N)))};
     if (scene.resonant()) {
       amplitudes.push_back(level("limit", time, most));
       amplitudes.push_back(level("limit, phase turned", time, -most));

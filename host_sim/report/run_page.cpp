@@ -46,11 +46,15 @@ output::Page run_page(const configure::Experiment& experiment, const loop::RunRe
   const scene::Scene& scene = experiment.plant;
   output::Page page{scene.name, lead(scene, result), run_warnings(scene, result, findings), {}, {}};
   page.scene = scene_file::to_json(experiment.nominal);
+  page.notes = run_remarks(scene, result, findings);
   if (page.scene.contains(nlohmann::ordered_json::json_pointer("/sensor/seed"))) {
     page.seed = scene.sensor.seed;
   }
   if (scene.controller) {
     page.tables.push_back(step_table(scene, findings));
+  }
+  if (result.control && result.control->friction) {
+    page.tables.push_back(learnt_friction_table(*result.control->friction));
   }
   if (scene.sensor.vibration) {
     page.tables.push_back(vibration_table(findings));

@@ -15,8 +15,13 @@ namespace sonoglide::report {
 /// What the reader has to know before the figures: first of each target step that never settles.
 std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::RunResult& result,
                                       const RunFindings& findings);
+/// What is good to know of the loop: nothing is wrong.
+std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunResult& result,
+                                     const RunFindings& findings);
 
 output::Table step_table(const scene::Scene& scene, const RunFindings& findings);
+/// What a controller has learnt of its contact while driving.
+output::Table learnt_friction_table(const loop::FrictionBelief& belief);
 output::Table vibration_table(const RunFindings& findings);
 output::Table run_table(const scene::Scene& scene, const loop::RunResult& result);
 output::Table electrical_table(const loop::ElectricalBalance& balance);

@@ -315,6 +315,19 @@ std::string pause_line(const report::PauseMetrics& metrics) {
       metrics.pauses, 100.0 * metrics.time_fraction, metrics.ratio_cost);
 }
 
+std::string friction_line(const loop::FrictionBelief& belief, std::uint64_t dips) {
+  const auto figure = [](const loop::Believed& each, const char* unit) {
+    return fmt::format("{} ({} to {})", output::quantity(each.value, unit),
+                       output::quantity(each.low_95, unit), output::quantity(each.high_95, unit));
+  };
+  return fmt::format(
+      "friction learnt while driving, with 95 % intervals: Fc {}, contact stiffness {}, vibration "
+      "{:.4g} ({:.4g} to {:.4g}) times the nominal one; the drive dipped {} {} for it\n",
+      figure(belief.friction_force, "N"), figure(belief.contact_stiffness, "N/m"),
+      belief.gain.value, belief.gain.low_95, belief.gain.high_95, dips,
+      dips == 1 ? "time" : "times");
+}
+
 std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
                        const RunFindings& findings) {
   const AmplitudeUnit unit = amplitude_unit(scene);
@@ -339,8 +352,7 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
     text += pause_line(findings.pauses());
   }
   if (result.control->friction) {
-    text += fmt::format("{}; dips of the drive for it: {}\n",
-                        friction_text(*result.control->friction), findings.pauses().pauses);
+    text += friction_line(*result.control->friction, findings.pauses().pauses);
   }
   for (const loop::FaultEvent& event : result.control->faults) {
     text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",

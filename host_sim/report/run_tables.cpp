@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "host_sim/output/number.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/solver_facts.hpp"
@@ -25,6 +26,21 @@ output::Table step_table(const scene::Scene& scene, const RunFindings& findings)
          figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N * unit.per_N),
          limit_text(step)});
   }
+  return table;
+}
+
+output::Table learnt_friction_table(const loop::FrictionBelief& belief) {
+  output::Table table{
+      "Friction learnt while driving", {"Figure", "Value", "95 %: from", "95 %: to"}, {}};
+  const auto row = [&table](const char* name, const loop::Believed& each, const auto& text) {
+    table.rows.push_back({name, text(each.value), text(each.low_95), text(each.high_95)});
+  };
+  row("Friction force Fc", belief.friction_force,
+      [](double force_N) { return output::quantity(force_N, "N"); });
+  row("Contact stiffness", belief.contact_stiffness,
+      [](double stiffness) { return output::quantity(stiffness, "N/m"); });
+  row("Vibration over the nominal one", belief.gain,
+      [](double gain) { return fmt::format("{:.4g}", gain); });
   return table;
 }
 

@@ -50,12 +50,14 @@ output::Chart admittance_chart(const scene::Scene& scene,
         " The operating point is a mean of about the last {:g} carrier periods, at {:.6g} Hz.",
         VibrationCourse::operating_periods, point->frequency_Hz);
   }
-  return {"Admittance",
-          std::move(note),
-          {"Conductance [S]"},
-          {"Susceptance [S]"},
-          {},
-          {std::move(below), std::move(above), std::move(operating)}};
+  output::Chart chart{"Admittance",
+                      std::move(note),
+                      {"Conductance [S]"},
+                      {"Susceptance [S]"},
+                      {},
+                      {std::move(below), std::move(above), std::move(operating)}};
+  chart.equal_scales = true;
+  return chart;
 }
 
 }  // namespace

@@ -95,6 +95,39 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
     return all;
   }
   append_unsettled(scene, findings, all);
+  for (const loop::FaultEvent& event : result.control->faults) {
+    all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
+                              event.time_s * 1e3, fault_name(event.fault)));
+  }
+  append_drive_limit(scene, *result.control, all);
+  if (!scene.sensor.force) {
+    all.emplace_back(
+        "There is no force sensor: the controller computes the friction ratio from the nominal "
+        "friction, and cannot detect an error of it.");
+  }
+  append_limits(findings.course(), all);
+  if (findings.course().periods_in(control::Limit::speed_floor) > 0) {
+    const configure::ControlDesign& design = result.control->design;
+    all.push_back(
+        fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
+                    "the friction ratio is undefined.",
+                    1e3 * design.speed_floor * design.scales.velocity_m_per_s));
+  }
+  if (findings.course().periods_in(control::Limit::velocity_at_rail) > 0) {
+    all.push_back(fmt::format(
+        "The drive was held, and then taken to zero, while the velocity sensor stood at the end of "
+        "its range, {:.3g} m/s. No vibration of this drive is faster.",
+        result.control->design.scales.velocity_m_per_s));
+  }
+  return all;
+}
+
+std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunResult& result,
+                                     const RunFindings& findings) {
+  std::vector<std::string> all;
+  if (!result.control) {
+    return all;
+  }
   if (!scene.tolerances.empty()) {
     all.emplace_back(
         "This run has one plant and ignores [tolerance]. The command robust runs the loop over the "
@@ -108,17 +141,6 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
         scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl ? "Dahl" : "Coulomb",
         cosine ? "the law" : "the waveform"));
   }
-  for (const loop::FaultEvent& event : result.control->faults) {
-    all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
-                              event.time_s * 1e3, fault_name(event.fault)));
-  }
-  append_drive_limit(scene, *result.control, all);
-  if (!scene.sensor.force) {
-    all.emplace_back(
-        "There is no force sensor: the controller computes the friction ratio from the nominal "
-        "friction, and cannot detect an error of it.");
-  }
-  append_limits(findings.course(), all);
   for (std::string& note : configure::design_notes(result.control->design)) {
     all.push_back(std::move(note));
   }
@@ -131,29 +153,15 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   }
   if (result.control->friction) {
     const report::PauseMetrics dips = findings.pauses();
-    std::string text = friction_text(*result.control->friction);
-    text.front() = 'F';
-    all.push_back(
-        fmt::format("{}. Dips of the drive to measure the friction force: {}, together {} of the "
-                    "time; the table of target steps leaves these periods out.",
-                    text, dips.pauses, percent(dips.time_fraction)));
+    all.push_back(fmt::format(
+        "The intervals of the learnt friction hold in 95 % of plants within the assumed errors, if "
+        "their friction stands still. The drive dipped {} {} to measure the friction force, {} of "
+        "the time; the table of target steps leaves these periods out.",
+        dips.pauses, dips.pauses == 1 ? "time" : "times", percent(dips.time_fraction)));
   }
   if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
                               findings.close_ups().size()));
-  }
-  if (findings.course().periods_in(control::Limit::speed_floor) > 0) {
-    const configure::ControlDesign& design = result.control->design;
-    all.push_back(
-        fmt::format("The drive was held while sliding was slower than {:.3g} mm/s, where "
-                    "the friction ratio is undefined.",
-                    1e3 * design.speed_floor * design.scales.velocity_m_per_s));
-  }
-  if (findings.course().periods_in(control::Limit::velocity_at_rail) > 0) {
-    all.push_back(fmt::format(
-        "The drive was held, and then taken to zero, while the velocity sensor stood at the end of "
-        "its range, {:.3g} m/s. No vibration of this drive is faster.",
-        result.control->design.scales.velocity_m_per_s));
   }
   return all;
 }

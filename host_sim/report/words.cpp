@@ -40,17 +40,6 @@ std::string settling_name(control::Settling settling) {
   return control::name(settling);
 }
 
-std::string friction_text(const loop::FrictionBelief& belief) {
-  const auto figure = [](const loop::Believed& each) {
-    return fmt::format("{:.4g} ({:.4g} to {:.4g})", each.value, each.low_95, each.high_95);
-  };
-  return fmt::format(
-      "friction learnt while driving, with intervals that hold in 95 % of plants within the assumed errors, "
-      "if their friction stands still: Fc {} N, contact stiffness {} N/m, vibration {} times the nominal "
-      "one",
-      figure(belief.friction_force), figure(belief.contact_stiffness), figure(belief.gain));
-}
-
 std::string limit_text(const report::StepMetrics& step) {
   std::string text = limit_name(step.limit);
   if (std::isnan(step.steady_error)) {
@@ -59,7 +48,9 @@ std::string limit_text(const report::StepMetrics& step) {
   if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
     text += fmt::format(" ({})", settling_name(step.cause));
   }
-  if (step.limit == control::Limit::mismatch && step.mismatch) {
+  constexpr double little = 0.05;  // of a friction that has been learnt
+  if (step.limit == control::Limit::mismatch && step.mismatch &&
+      std::abs(std::log(*step.mismatch)) > little) {
     text += fmt::format(" (nominal/true friction {:.3g})", *step.mismatch);
   }
   if (!step.limit_seen_by_controller) {

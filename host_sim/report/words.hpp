@@ -35,8 +35,6 @@ AmplitudeUnit amplitude_unit(const scene::Scene& scene);
 
 std::string limit_name(control::Limit limit);
 std::string fault_name(control::Fault fault);
-/// What is believed of a friction that is learnt while driving, and how sure that is.
-std::string friction_text(const loop::FrictionBelief& belief);
 /// The limit of a target step, with its cause, how far belief and truth are apart, and whether only
 /// the simulation can see it; all where there is something to say.
 std::string limit_text(const report::StepMetrics& step);

@@ -83,7 +83,12 @@ class Run:
         ratio.set_ylabel("friction ratio")
         ratio.legend()
         unit = "V" if "drive_amplitude_V" in periods else "N"
-        drive.plot(time_ms, periods[f"drive_amplitude_{unit}"])
+        amplitude = periods[f"drive_amplitude_{unit}"]
+        if self.scene.values["drive"].get("interpolation") == "linear":
+            ends_ms = np.append(time_ms, self.scene.values["run"]["duration_s"] * 1e3)
+            drive.plot(ends_ms, np.append(0.0, amplitude))
+        else:
+            drive.step(time_ms, amplitude, where="post")
         drive.set_ylabel(f"drive amplitude [{unit}]")
         drive.set_xlabel("time [ms]")
         figure.suptitle(self.scene.name)

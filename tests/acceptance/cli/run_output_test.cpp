@@ -56,11 +56,12 @@ TEST_F(RunOutputTest, SummaryAndPageSayWhatWasRun) {
     "friction.coefficient": {"file": 0.1, "value": 0.2},
     "run.record": {"file": ["displacement_m"], "value": []}})"));
   const std::string page = folder_.read("out/scene/report.html");
-  for (const char* part :
-       {"<dd><code>sonoglide run scene.toml --quiet --set friction.coefficient=0.2 ",
-        "<dd>sonoglide " SONOGLIDE_VERSION "</dd>",
-        "<tr class=\"changed\"><td>friction.coefficient</td><td>0.2</td><td>changed; in the file: "
-        "0.1</td></tr>"}) {
+  for (
+      const char* part :
+      {"<dd><code><span>sonoglide</span> <span>run</span> <span>scene.toml</span> <span>--quiet</span> ",
+       "<dd>sonoglide " SONOGLIDE_VERSION "</dd>",
+       "<tr class=\"changed\"><td>friction.coefficient</td><td>0.2</td><td>changed; in the file: "
+       "0.1</td></tr>"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(unexplained_symbols(page), std::vector<std::string>{});

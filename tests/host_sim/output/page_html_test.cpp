@@ -237,6 +237,19 @@ TEST(PageHtml, PutsWarningsBeforeEverythingButTheTitle) {
   EXPECT_LT(html.find("Mind the gap"), html.find("<table>"));
 }
 
+TEST(PageHtml, NotesAreABoxOfTheirOwnBelowTheWarnings) {
+  Page page;
+  page.warnings = {"Mind the gap"};
+  page.notes = {"One", "Two"};
+  const std::string html = to_html(page);
+  const std::size_t warnings = html.find("<aside class=\"warnings\">\n<h2>Warning</h2>");
+  const std::size_t notes =
+      html.find("<aside class=\"notes\">\n<h2>Notes</h2>\n<ul>\n<li>One</li>");
+  ASSERT_NE(notes, std::string::npos);
+  EXPECT_LT(warnings, notes);
+  EXPECT_EQ(count(to_html(Page()), "<aside"), 0U);
+}
+
 TEST(PageHtml, MarksTheValuesOfTheSceneThatWereChanged) {
   program().command_line = "sonoglide run a.toml --set 'plant.mass_kg=3'";
   program().changed = {{"plant.mass_kg", {{"file", 2}, {"value", 3}}}};
@@ -246,7 +259,8 @@ TEST(PageHtml, MarksTheValuesOfTheSceneThatWereChanged) {
   const std::string html = to_html(page);
   program() = {};
   for (const char* part :
-       {"<dd><code>sonoglide run a.toml --set &#39;plant.mass_kg=3&#39;</code></dd>",
+       {"<dd><code><span>sonoglide</span> <span>run</span> <span>a.toml</span> <span>--set</span> "
+        "<span>&#39;plant.mass_kg=3&#39;</span></code></dd>",
         "<dt>Version</dt><dd>sonoglide ", "<dt>Seed</dt><dd>7</dd>", "The scene, 2 values",
         "<tr class=\"changed\"><td>plant.mass_kg</td><td>3</td><td>changed; in the file: 2</td>",
         "<tr><td>plant.name</td><td>&quot;&lt;b&gt;&quot;</td><td></td>"}) {
