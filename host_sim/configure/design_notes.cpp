@@ -69,6 +69,12 @@ std::string left_text(const FeedforwardDesign& mode) {
           ? fmt::format(" where the natural frequency is off by up to {:.2g} %",
                         100.0 * mode.frequency_range)
           : std::string();
+  if (mode.left >= 2.0) {
+    return fmt::format(
+        "A change of the amplitude leaves a free vibration of up to {:.2g} times its forced one{}, "
+        "and the friction ratio swings with it.",
+        mode.left, where);
+  }
   return fmt::format(
       "A change of the amplitude leaves a free vibration of up to {:.2g} % of its forced one{}; from "
       "rest to a target the friction ratio then swings by up to ±{:.2g}.",

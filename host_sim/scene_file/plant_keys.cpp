@@ -195,7 +195,8 @@ std::vector<Key> drive_keys() {
        Word{words_of(scene::interpolations)},
        scene::name_of(scene::interpolations, drive.interpolation),
        "how the amplitude passes from one carrier period to the next. step: at once, at phase 0. "
-       "linear: along a straight line over the period that begins there",
+       "linear: along a straight line over the period that begins there, which pays off where the "
+       "stiffness is uncertain and the natural mode near a multiple of the carrier",
        closed_loop + uses::cosine_drive},
       {"codes_per_period", of_drive<&Drive::codes_per_period>, Integer{1, 8},
        static_cast<double>(drive.codes_per_period),

@@ -196,6 +196,12 @@ std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
   return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
 }
 
+bool has_model_error(const scene::Scene& scene) {
+  const scene::ModelError& error = scene.model_error;
+  return error.mass != 1.0 || error.stiffness != 1.0 || error.coefficient != 1.0 ||
+         error.contact_stiffness != 1.0 || error.force_factor != 1.0 || error.damping != 1.0;
+}
+
 }  // namespace
 
 std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
@@ -213,6 +219,7 @@ std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
   study.range = configure::assumed_frequency_range(scene);
   study.assumed_range = configure::natural_frequency_range(scene.tolerances) == 0.0;
   study.stiffness_range = 2.0 * study.range;
+  study.model_error = has_model_error(scene);
   study.plants = plants_a_carrier;
   study.targets = std::min(ratios.size(), most_targets);
   study.own = carriers_on_a_side;

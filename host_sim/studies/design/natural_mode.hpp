@@ -47,6 +47,7 @@ struct NaturalModeStudy {
   double range = 0.0;              ///< by which the natural frequency may be off, relative
   double stiffness_range = 0.0;    ///< of the plants tried, relative
   bool assumed_range = false;      ///< the scene tells of none
+  bool model_error = false;        ///< of the scene, which the controllers have besides
   std::size_t plants = 0;          ///< with each drive, and at each carrier
   std::size_t targets = 0;         ///< of each loop
   std::vector<QuietDrive> drives;  ///< step, then linear

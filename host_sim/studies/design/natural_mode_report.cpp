@@ -49,12 +49,26 @@ std::string word(const QuietDrive& drive) {
                      scene::name_of(scene::interpolations, drive.interpolation));
 }
 
+/// A swing by more than half cannot be: the ratio of a contact stays between -1 and 1.
+constexpr double largest_swing = 0.5;
+
+std::string swing_text(const QuietDrive& drive) {
+  return drive.left.ratio_swing > largest_swing ? fmt::format("more than ±{:g}", largest_swing)
+                                                : fmt::format("±{:.2g}", drive.left.ratio_swing);
+}
+
+/// Over the forced vibration.
+std::string left_text(const QuietDrive& drive) {
+  const double left = drive.left.left;
+  return left < 2.0 ? fmt::format("{:.3g} %", 100.0 * left) : fmt::format("{:.2g} times", left);
+}
+
 std::string left_behind(const QuietDrive& drive) {
   return fmt::format(
-      "with {}, {}: {:.3g} % of free vibration is left {:g} carrier {} after a change of the "
-      "amplitude, a swing of the ratio of ±{:.2g}",
-      word(drive), means(drive), 100.0 * drive.left.left, drive.changing_periods,
-      drive.changing_periods == 1.0 ? "period" : "periods", drive.left.ratio_swing);
+      "with {} ({}) a change of the amplitude is complete after {:g} carrier {} and leaves {} free "
+      "vibration, which swings the ratio by {}",
+      word(drive), means(drive), drive.changing_periods,
+      drive.changing_periods == 1.0 ? "period" : "periods", left_text(drive), swing_text(drive));
 }
 
 /// The number of a multiple of the carrier, as a place.
@@ -66,8 +80,9 @@ std::string multiple(const CarrierPoint& point) {
 }
 
 std::string tried(const NaturalModeStudy& mode) {
-  return fmt::format("{} plants with the stiffness off by up to {:.2g} %{}", mode.plants,
+  return fmt::format("{} plants with the stiffness off by up to {:.2g} %{}{}", mode.plants,
                      100.0 * mode.stiffness_range,
+                     mode.model_error ? " on top of the scene's [model_error]" : "",
                      mode.assumed_range ? ", as the scene tells of no [tolerance]" : "");
 }
 
@@ -76,7 +91,7 @@ Advice mode_advice(const NaturalModeStudy& mode) {
   return {
       "Natural mode",
       fmt::format("{} is {:.4g} times the carrier, {:.3g} carrier frequencies from {}. Where it is "
-                  "off by up to {:.2g} %: {}; {}.",
+                  "off by up to {:.2g} %, over the forced vibration: {}; {}.",
                   output::quantity(mode.natural_Hz, "Hz"), own.mode_per_carrier, own.from_multiple,
                   multiple(own), 100.0 * mode.range, left_behind(mode.drives.front()),
                   left_behind(mode.drives.back()))};
@@ -132,12 +147,11 @@ Advice carrier_advice(const NaturalModeStudy& mode) {
                         output::quantity(mode.carriers.back().frequency_Hz, "Hz"))};
   }
   const CarrierPoint& best = mode.carriers[*mode.recommended];
-  // The range moves the mode by so many carrier frequencies.
+  // That the stiffness may be off moves the mode by so many carrier frequencies.
   const double moved = 0.5 * mode.stiffness_range * best.mode_per_carrier;
   const std::string far = fmt::format(
-      "the mode is {:.3g} carrier frequencies from {} there, {:.2g} times as far as the range moves "
-      "it",
-      best.from_multiple, multiple(best), best.from_multiple / moved);
+      "the mode is {:.3g} carrier frequencies from {} there, and such a stiffness moves it by {:.2g}",
+      best.from_multiple, multiple(best), moved);
   if (*mode.recommended == mode.own) {
     return {"Carrier",
             fmt::format("Keep {}: of {}, {}; {}.", output::quantity(own.frequency_Hz, "Hz"),
@@ -187,8 +201,7 @@ output::Table drives_table(const NaturalModeStudy& mode) {
     table.rows.push_back(
         {std::string(scene::name_of(scene::interpolations, drive.interpolation)), means(drive),
          fmt::format("{}", drive.tap_count), fmt::format("{:g} periods", drive.changing_periods),
-         fmt::format("{:.3g} %", 100.0 * drive.left.left),
-         fmt::format("±{:.3g}", drive.left.ratio_swing), fmt::format("{}", drive.plants.settled),
+         left_text(drive), swing_text(drive), fmt::format("{}", drive.plants.settled),
          fmt::format("{}", drive.plants.late), fmt::format("{}", drive.plants.never)});
   }
   return table;

@@ -84,7 +84,7 @@ output::Table figure_table(const std::vector<Estimate>& figures) {
     const double half = 0.5 * (each.high_95 - each.low_95) / std::abs(each.value);
     table.rows.push_back({each.name, formatted(each.name, each.value, "open"),
                           formatted(each.name, each.low_95), formatted(each.name, each.high_95),
-                          output::formatted(100.0 * half, "{:.2g} %")});
+                          output::formatted(100.0 * half, half < 0.095 ? "{:.2g} %" : "{:.0f} %")});
   }
   return table;
 }

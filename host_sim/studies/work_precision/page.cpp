@@ -63,8 +63,12 @@ const char* kind_of_error(const SolverComparison& comparison) {
   return comparison.absolute_error ? "Absolute error" : "Relative error";
 }
 
+/// Whole numbers from a thousand on, as nobody reads 1.8e+03.
 std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3g}", value) : std::string("–");
+  const bool is_large = value >= 999.5 && value < 1e6;
+  return !std::isfinite(value) ? std::string("–")
+         : is_large            ? fmt::format("{:.0f}", value)
+                               : fmt::format("{:.3g}", value);
 }
 
 std::string lead(const scene::Scene& scene, const SolverComparison& comparison) {

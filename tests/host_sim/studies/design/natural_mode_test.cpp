@@ -107,7 +107,16 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   const auto says = [&](const char* part) { return text.find(part) != std::string::npos; };
   EXPECT_TRUE(says("is 2.01 times the carrier, 0.01 carrier frequencies from 2 times the carrier"))
       << text;
-  EXPECT_TRUE(says("with drive.interpolation = \"linear\", the ramp alone: ")) << text;
+  EXPECT_TRUE(
+      says("with drive.interpolation = \"linear\" (the ramp alone) a change of the amplitude is "
+           "complete after 1 carrier period and leaves "))
+      << text;
+  EXPECT_FALSE(says("[model_error]")) << text;
+  NaturalModeStudy mistaken = *study.natural_mode;
+  mistaken.model_error = true;
+  EXPECT_NE(
+      natural_mode_advice(mistaken).at(1).sentence.find("on top of the scene's [model_error]"),
+      std::string::npos);
   EXPECT_TRUE(
       says("Controller: The best that feeds the drive forward has drive.interpolation = "
            "\"linear\" (the ramp alone): of 8 plants"))
