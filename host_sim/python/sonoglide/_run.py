@@ -84,7 +84,7 @@ class Run:
         ratio.legend()
         unit = "V" if "drive_amplitude_V" in periods else "N"
         amplitude = periods[f"drive_amplitude_{unit}"]
-        if self.scene.values["drive"].get("interpolation") == "linear":
+        if self.scene.values.get("drive", {}).get("interpolation") == "linear":
             ends_ms = np.append(time_ms, self.scene.values["run"]["duration_s"] * 1e3)
             drive.plot(ends_ms, np.append(0.0, amplitude))
         else:
