@@ -27,7 +27,8 @@ template <class ScalarT>
 class RecordingController {
  public:
   using Scalar = ScalarT;
-  static constexpr bool observed = false;
+  using Measurement = control::Measurement<Scalar>;
+  using Command = control::DriveCommand<Scalar>;
 
   template <control::Numbers Known>
   control::DriveCommand<Scalar> step(const control::Measurement<Scalar>& measurement) {
@@ -194,6 +195,25 @@ TYPED_TEST(ControlLoopTest, ALostSampleEndsTheDriveInTheSameStep) {
     EXPECT_EQ(board.driven[i].fault,
               static_cast<std::uint8_t>(control::Fault::measurement_missing));
   }
+}
+
+TEST(ExchangeTest, HandsOverTheMeanVelocityAndTheBias) {
+  hal::MotionSample sample{};
+  sample.fresh = true;
+  sample.vibration_fresh = true;
+  sample.quadrature = 1 << 28;
+  sample.mean_velocity = -(1 << 30);
+  const auto measurement = measurement_of<double>(sample);
+  EXPECT_EQ(measurement.mean_velocity, -0.5);
+  EXPECT_EQ(measurement.quadrature, 0.125);
+  EXPECT_EQ(measurement.quality, control::Quality::good);
+  EXPECT_EQ(measurement.vibration_quality, control::Quality::good);
+  control::BiasedCommand<double> command{};
+  command.amplitude = 0.25;
+  command.bias = -0.5;
+  const hal::BiasedDrive drive = drive_of(command);
+  EXPECT_EQ(drive.amplitude, 1 << 29);
+  EXPECT_EQ(drive.bias, -(1 << 30));
 }
 
 }  // namespace
