@@ -175,6 +175,9 @@ class FieldDesign {
   /// Carrier periods that a save may take: 10 s.
   constexpr std::uint32_t save_periods() const { return periods(longest_save_ms); }
 
+  /// Carrier periods in which the service comes round: 50 ms.
+  constexpr std::uint32_t service_periods() const { return periods(longest_service_ms); }
+
   /// See Controller::settle_at.
   constexpr const Designed& designed() const { return designed_; }
 
@@ -226,6 +229,7 @@ class FieldDesign {
  private:
   static constexpr std::uint32_t longest_timeout_ms = 60'000;
   static constexpr std::uint32_t longest_save_ms = 10'000;
+  static constexpr std::uint32_t longest_service_ms = 50;
   static constexpr std::uint32_t one_in_fraction = 1U << 16;
 
   /// Rounded up.

@@ -31,14 +31,15 @@ class LinkService {
  public:
   LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// Once in each carrier period: receives one byte. Unless that ends a frame, it encodes or sends
+  /// Receives one byte. Unless that ends a frame, it encodes or sends
   /// one byte, carries out one request, or takes one step of a save.
   void serve() {
-    unit_.count_silence();
     if (receive()) {
       return;
     }
-    if (saving_ != 0) {
+    if (ordering_ != 0) {
+      finish_order(unit_.order_end());
+    } else if (saving_ != 0) {
       finish_save(unit_.proceed());
     } else if (encoder_.busy()) {
       encoder_.proceed();
@@ -78,7 +79,7 @@ class LinkService {
       case link::Reception::nothing:
         return false;
       case link::Reception::frame:
-        unit_.hear_host();
+        unit_.supervisor().hear_host();
         accept(decoder_.frame());
         break;
       case link::Reception::truncated:
@@ -126,6 +127,7 @@ class LinkService {
     } else {
       checksum_ = request.checksum;
       sequence_ = frame.sequence;
+      request_faults_ = request.faults;
       if (request.faults == faults()) {
         dispatch(frame);
       } else {
@@ -167,20 +169,17 @@ class LinkService {
   // ---- Requests ----
 
   void carry_out(const link::ReadTelemetry& /*request*/) {
-    const auto& supervisor = unit_.supervisor();
-    const hal::Sample& sample = supervisor.sample();
-    const hal::Drive& drive = supervisor.drive();
-    answer(link::Telemetry{supervisor.periods(), sample.friction_force, sample.sliding_velocity,
+    const Snapshot shown = unit_.supervisor().snapshot();
+    const hal::Drive& drive = shown.drive;
+    answer(link::Telemetry{shown.periods, shown.friction_force, shown.sliding_velocity,
                            drive.amplitude, unit_.target(), drive.state, drive.limit, drive.fault,
                            static_cast<std::uint8_t>(unit_.origin()), lost_frames_, drive.settling,
                            mismatch_thousandths(drive, unit_.target())});
   }
 
   void carry_out(const link::SetTarget& request) {
-    if (unit_.set_target(request.ratio) == Answer::taken) {
-      link::TargetSet set{};
-      set.ratio = request.ratio;
-      answer(set);
+    if (unit_.set_target(request.ratio, request_faults_) == Answer::taken) {
+      ordering_ = request.kind;
     } else {
       refuse_value(request.kind, unit_.range(Parameter::target));
     }
@@ -243,22 +242,44 @@ class LinkService {
   }
 
   void carry_out(const link::Restart& request) {
-    if (unit_.restart() == Answer::taken) {
-      answer(link::Restarted{});
+    if (unit_.restart(request_faults_) == Answer::taken) {
+      ordering_ = request.kind;
     } else {
       refuse(request.kind, link::Reason::parameters_not_confirmed);
     }
   }
 
-  void carry_out(const link::ReadFault& request) {
-    const auto& faults = unit_.supervisor().faults();
-    if (request.age >= faults.kept()) {
-      refuse(request.kind, link::Reason::no_such_fault, 0,
-             static_cast<std::uint32_t>(faults.kept()));
+  /// A restart is done or refused before it is answered, and so is a new target.
+  void finish_order(OrderEnd end) {
+    if (end == OrderEnd::pending) {
       return;
     }
-    const FaultEntry& entry = faults.entry(request.age);
-    answer(link::LoggedFault{request.age, entry.fault, entry.period, faults.count()});
+    const std::uint8_t request = ordering_;
+    ordering_ = 0;
+    if (end == OrderEnd::overtaken) {
+      if (request_faults_ != faults()) {
+        refuse(request, link::Reason::overtaken_by_fault);
+      } else {
+        refuse(request, link::Reason::out_of_turn, turns_.last(), turns_.last());
+      }
+    } else if (request == link::Restart::kind) {
+      answer(link::Restarted{});
+    } else {
+      link::TargetSet set{};
+      set.ratio = unit_.target();
+      answer(set);
+    }
+  }
+
+  void carry_out(const link::ReadFault& request) {
+    FaultEntry entry{};
+    std::uint32_t count = 0;
+    const auto& log = unit_.supervisor().faults();
+    if (log.read(request.age, entry, count)) {
+      answer(link::LoggedFault{request.age, entry.fault, entry.period, count});
+    } else {
+      refuse(request.kind, link::Reason::no_such_fault, 0, static_cast<std::uint32_t>(log.kept()));
+    }
   }
 
   // ---- Answers ----
@@ -301,11 +322,13 @@ class LinkService {
   std::size_t waiting_ = 0;
   std::uint32_t faults_ = 0;  ///< since reset, when the frame that is being received began
   link::SequenceWatch turns_;
-  std::uint32_t checksum_ = 0;       ///< of the last request
-  std::uint16_t sequence_ = 0;       ///< of the request at hand
-  std::uint16_t stop_sequence_ = 0;  ///< of the last stop
-  bool stopped_ = false;             ///< and that is not yet answered
-  std::uint8_t saving_ = 0;          ///< kind of the request whose save goes on
+  std::uint32_t checksum_ = 0;        ///< of the last request
+  std::uint16_t sequence_ = 0;        ///< of the request at hand
+  std::uint16_t stop_sequence_ = 0;   ///< of the last stop
+  bool stopped_ = false;              ///< and that is not yet answered
+  std::uint8_t saving_ = 0;           ///< kind of the request whose save goes on
+  std::uint8_t ordering_ = 0;         ///< kind of the request whose order is pending
+  std::uint32_t request_faults_ = 0;  ///< since reset, when the request at hand came
   std::uint16_t lost_frames_ = 0;
   link::WriteParameter writing_{};
   link::Frame answer_;  ///< to the last request that was carried out

@@ -1,11 +1,11 @@
 /// Faults of a running unit: kept, logged, and left by an explicit restart alone.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "firmware/app/exchange.hpp"
+#include "firmware/app/fault_log.hpp"
 #include "firmware/control/interface/drive_command.hpp"
 #include "hal/board.hpp"
 
@@ -22,39 +22,6 @@ struct NoHost {
   static void clear() {}
 };
 
-// The last faults of a unit.
-
-/// A fault, and when it was found.
-struct FaultEntry {
-  std::uint8_t fault;    ///< control::Fault or UnitFault
-  std::uint32_t period;  ///< in which it was found: served since reset, this one included; wraps
-};
-
-/// Keeps the last `Length` faults since reset.
-template <std::size_t Length>
-class FaultLog {
- public:
-  void add(const FaultEntry& entry) {
-    entries_[next_] = entry;
-    next_ = next_ + 1 < Length ? next_ + 1 : 0;
-    count_ += count_ < UINT32_MAX ? 1U : 0U;
-  }
-
-  /// Faults since reset, those no longer kept included.
-  std::uint32_t count() const { return count_; }
-  std::size_t kept() const { return count_ < Length ? count_ : Length; }
-
-  /// @param age  0 is the latest; less than kept().
-  const FaultEntry& entry(std::size_t age) const {
-    return entries_[next_ > age ? next_ - 1 - age : next_ + Length - 1 - age];
-  }
-
- private:
-  std::array<FaultEntry, Length> entries_{};
-  std::size_t next_ = 0;
-  std::uint32_t count_ = 0;
-};
-
 /// Faults that the loop finds, besides those of the controller (control::Fault, 16 … 31).
 enum class UnitFault : std::uint8_t {
   overrun = 32,     ///< a step was not done when the next carrier period began
@@ -62,6 +29,7 @@ enum class UnitFault : std::uint8_t {
   host_silent,      ///< nothing was heard for longer than host_timeout; the drive ramps down
   parameters_lost,  ///< what is stored is damaged; a restart is refused
   parameters_of_other_design,  ///< what is stored was set under another; a restart is refused
+  service_stalled,             ///< the service did not come round, so that no stop would be heard
 };
 
 /// A controller and its operation: off, running or in a fault. The drive is zero unless the
@@ -112,11 +80,21 @@ class Supervisor {
 
   /// One carrier period.
   const hal::Drive& step(const hal::Sample& sample) {
+    begin(sample);
+    return answer();
+  }
+
+  /// The first part of step(): counts the period and keeps its sample.
+  void begin(const hal::Sample& sample) {
     ++periods_;
     sample_ = sample;
+  }
+
+  /// The other: answers the sample.
+  const hal::Drive& answer() {
     if (running()) {
       drive_ = drive_of(
-          controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample)));
+          controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample_)));
       if (!running()) {
         log_.add({drive_.fault, periods_});
       }
@@ -125,6 +103,11 @@ class Supervisor {
     }
     return drive_;
   }
+
+  // Nobody serves it, and nobody looks at it: see CommandedSupervisor.
+  static constexpr bool serviced() { return true; }
+  static void publish() {}
+  static void note_service() {}
 
   /// Neither off nor in a fault, or on the ramp down.
   bool driving() const { return running() || host_.falling(); }

@@ -13,13 +13,15 @@ struct NoService {
   static void serve() {}
 };
 
-/// Each carrier period: sample, step, drive, feed the watchdog, and one piece of service.
+/// Two calls that may interrupt each other in one direction: control(), once in each carrier period from
+/// the carrier's interrupt, and service(), again and again from main. Where there is time enough for
+/// both, serve() calls one after the other. Each carrier period: sample, step, drive, feed the watchdog.
 ///
 /// - An overrun is a step that is not done when the next period begins, or a period that passed
 ///   without a sample, while the unit drives. The amplitude would come into force late; it is
 ///   replaced by zero, and the fault stays until a restart.
-/// - The watchdog is fed only when a period's step was done in time. This holds in a fault too:
-///   otherwise the reset would be a restart that nobody asked for.
+/// - The watchdog is fed only when a period's step was done in time and the service comes round. This
+///   holds in a fault too: otherwise the reset would be a restart that nobody asked for.
 /// - After a reset by the watchdog the unit waits in a fault. After any other reset a unit without
 ///   a host runs (NoHost); one with a host does as its Unit decided.
 ///
@@ -43,7 +45,7 @@ class TimedLoop {
   }
 
   /// Serves one carrier period; false when the board shuts down.
-  bool serve() {
+  bool control() {
     hal::Sample sample{};
     if (!board_.sample(sample)) {
       return false;
@@ -56,12 +58,29 @@ class TimedLoop {
     board_.drive(supervisor_.step(sample));
     const bool in_time = none_lost && board_.period() == period;
     if (in_time) {
-      watchdog_.feed();
+      if (supervisor_.serviced()) {
+        watchdog_.feed();
+      }
     } else if (supervisor_.driving()) {
       supervisor_.trip(UnitFault::overrun);
       board_.drive(supervisor_.drive());
     }
+    supervisor_.publish();
+    return true;
+  }
+
+  /// A bounded piece of work beside control.
+  void service() {
     service_.serve();
+    supervisor_.note_service();
+  }
+
+  /// Both, one after the other; false when the board shuts down.
+  bool serve() {
+    if (!control()) {
+      return false;
+    }
+    service();
     return true;
   }
 

@@ -4,16 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/app/commanded_supervisor.hpp"
 #include "firmware/app/field_parameters.hpp"
-#include "firmware/app/host_ramp.hpp"
-#include "firmware/app/supervisor.hpp"
 #include "firmware/store/two_page_store.hpp"
 
 namespace sonoglide::app {
 
 /// How a request was taken.
 enum class Answer : std::uint8_t {
-  taken,  ///< done; a parameter: being saved, see Unit::proceed()
+  taken,  ///< ordered, see Unit::order_end(); a parameter: being saved, see Unit::proceed()
   out_of_range,
   unknown_parameter,
   drive_not_stopped,
@@ -27,14 +26,14 @@ enum class Answer : std::uint8_t {
 /// waits in a fault that says so. It then refuses a restart until the parameters are confirmed or
 /// one of them is written.
 ///
-/// A service tells it of every carrier period and of every sign of life from the host. If the host
-/// is silent for longer than `host_timeout` while the unit drives, the unit is in the fault
-/// host_silent, and the drive ramps down (HostRamp). A restart ends this fault, like any other.
+/// It belongs to the service, except for its supervisor's control side (CommandedSupervisor), which may
+/// interrupt every call. What a request asks of the controller is an order; the next one may be given
+/// when it has ended.
 template <class PartsT, class Flash>
 class Unit {
  public:
   using Design = FieldDesign<PartsT>;
-  using Supervisor = app::Supervisor<typename Design::Controller, HostRamp>;
+  using Supervisor = CommandedSupervisor<typename Design::Controller, typename Design::Designed>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none.
   /// @param design  outlives the unit.
@@ -44,11 +43,10 @@ class Unit {
         store_(flash, design.design()),
         values_(design.presets()),
         origin_(load()),
-        timeout_periods_(design.timeout_periods(values_)),
         target_(value(Parameter::target)),
-        supervisor_(design.controller_parameters(values_)) {
-    supervisor_.settle_at(design_.designed());
-    apply_target();
+        supervisor_(design.controller_parameters(values_), design.designed(),
+                    design.timeout_periods(values_), design.service_periods()) {
+    supervisor_.set_target(design_.half_target(target_));
     begin();
   }
 
@@ -59,21 +57,21 @@ class Unit {
   store::Origin origin() const { return origin_; }
 
   /// Drive to zero until a restart. Allowed at any time, in the middle of a save too.
-  void stop() { supervisor_.stop(); }
+  void stop() { supervisor_.order_stop(); }
 
   /// The drive begins afresh, from a stop, from a fault or from running.
-  Answer restart() {
+  /// @param faults  that were known when the request came: a later one overtakes it
+  Answer restart(std::uint32_t faults) {
     if (!confirmed_) {
       return Answer::parameters_not_confirmed;
     }
-    silent_periods_ = 0;
-    start_drive();
+    supervisor_.order_restart(faults);
     return Answer::taken;
   }
 
   /// Accepts the parameters in force until reset, and begins to save them: see write().
   Answer confirm() {
-    if (supervisor_.driving()) {
+    if (supervisor_.snapshot().driving()) {
       return Answer::drive_not_stopped;
     }
     confirmed_ = true;
@@ -83,25 +81,27 @@ class Unit {
     return Answer::taken;
   }
 
-  /// The host gave a sign of life.
-  void hear_host() { silent_periods_ = 0; }
-
-  /// Once in each carrier period.
-  void count_silence() {
-    if (timeout_periods_ != 0 && supervisor_.driving() && silent_periods_++ >= timeout_periods_) {
-      supervisor_.ramp_down(UnitFault::host_silent);
-    }
-  }
-
   /// In force from the next carrier period on, until reset.
-  /// @param ratio  friction ratio, millionths.
-  Answer set_target(std::uint32_t ratio) {
+  /// @param ratio   friction ratio, millionths.
+  /// @param faults  that were known when the request came: a later one overtakes it
+  Answer set_target(std::uint32_t ratio, std::uint32_t faults) {
     if (!range(Parameter::target).allows(ratio)) {
       return Answer::out_of_range;
     }
-    target_ = ratio;
-    apply_target();
+    ordered_target_ = ratio;
+    supervisor_.order_target(design_.half_target(ratio), faults);
     return Answer::taken;
+  }
+
+  /// How a restart or a new target ended.
+  OrderEnd order_end() {
+    const OrderEnd end = supervisor_.order_end();
+    if (end == OrderEnd::done) {
+      target_ = ordered_target_;
+    } else if (end == OrderEnd::overtaken) {
+      ordered_target_ = target_;
+    }
+    return end;
   }
 
   /// Friction ratio, millionths.
@@ -125,7 +125,7 @@ class Unit {
     if (!range(parameter).allows(value)) {
       return Answer::out_of_range;
     }
-    if (supervisor_.driving()) {
+    if (supervisor_.snapshot().driving()) {
       return Answer::drive_not_stopped;
     }
     pending_ = values_;
@@ -135,15 +135,20 @@ class Unit {
     return Answer::taken;
   }
 
-  /// The next step of a save, once in each carrier period; of the flash, at most one operation. A
-  /// flash that takes longer than FieldDesign::save_periods() has failed.
+  /// The next step of a save, once in each service; of the flash, at most one operation. A flash that
+  /// takes longer than FieldDesign::save_periods() services has failed. It has ended when the
+  /// controller has its new parameters.
   store::Saving proceed() {
+    if (adopting_) {
+      return finish_adopting();
+    }
     store::Saving saving = store_.proceed();
     if (saving == store::Saving::busy && --save_periods_left_ == 0) {
       saving = store_.abandon();
     }
     if (saving == store::Saving::saved) {
       adopt();
+      saving = store::Saving::busy;
     }
     return saving;
   }
@@ -189,13 +194,9 @@ class Unit {
       supervisor_.trip(origin_ == store::Origin::damaged ? UnitFault::parameters_lost
                                                          : UnitFault::parameters_of_other_design);
     } else if (value(Parameter::start_on_power) != 0) {
-      start_drive();
+      supervisor_.restart();
     }
   }
-
-  // Out of line: in the controller they are a lot of code.
-  [[gnu::noinline]] void apply_target() { supervisor_.set_target(design_.half_target(target_)); }
-  [[gnu::noinline]] void start_drive() { supervisor_.restart(); }
 
   void save() {
     typename Store::Record record{};
@@ -210,13 +211,32 @@ class Unit {
     values_ = pending_;
     origin_ = store::Origin::stored;
     confirmed_ = true;
-    timeout_periods_ = design_.timeout_periods(values_);
-    supervisor_.reconfigure(design_.controller_parameters(values_));
-    supervisor_.settle_at(design_.designed());
     if (pending_parameter_ == static_cast<std::size_t>(Parameter::target)) {
       target_ = value(Parameter::target);
     }
-    apply_target();
+    ordered_target_ = target_;
+    adopting_ = true;
+    order_parameters();
+  }
+
+  [[gnu::noinline]] void order_parameters() {
+    supervisor_.order_parameters(design_.controller_parameters(values_),
+                                 design_.half_target(target_), design_.timeout_periods(values_));
+  }
+
+  /// What is saved is in force in the end, whatever stops come in between.
+  store::Saving finish_adopting() {
+    switch (supervisor_.order_end()) {
+      case OrderEnd::pending:
+        return store::Saving::busy;
+      case OrderEnd::overtaken:
+        order_parameters();
+        return store::Saving::busy;
+      case OrderEnd::done:
+        break;
+    }
+    adopting_ = false;
+    return store::Saving::saved;
   }
 
   const Design& design_;
@@ -224,9 +244,9 @@ class Unit {
   ParameterValues values_;
   store::Origin origin_;
   bool confirmed_ = false;  ///< nothing speaks against the parameters, or somebody took them
-  std::uint32_t timeout_periods_;
-  std::uint32_t silent_periods_ = 0;
   std::uint32_t target_;
+  std::uint32_t ordered_target_ = target_;
+  bool adopting_ = false;  ///< what was saved is ordered
   ParameterValues pending_{};
   std::size_t pending_parameter_ = 0;
   std::uint32_t save_periods_left_ = 0;

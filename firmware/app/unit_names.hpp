@@ -22,6 +22,8 @@ constexpr const char* fault_name(std::uint8_t fault) {
       return "parameters_lost";
     case UnitFault::parameters_of_other_design:
       return "parameters_of_other_design";
+    case UnitFault::service_stalled:
+      return "service_stalled";
   }
   return control::name(static_cast<control::Fault>(fault));
 }

@@ -42,6 +42,6 @@ struct VectorTable {
     reset,
     {take_exception, take_exception, take_exception, take_exception, take_exception, take_exception,
      take_exception, take_exception, take_exception, take_exception, take_exception, take_exception,
-     take_exception, take_exception}};
+     take_exception, take_system_tick}};
 
 }  // namespace

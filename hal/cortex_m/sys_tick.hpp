@@ -1,4 +1,4 @@
-/// The Cortex-M's own timer, as a counter without an interrupt.
+/// The Cortex-M's own timer, as a counter or as an interrupt.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,16 @@ class SysTick {
     registers().control = enabled_on_processor_clock;
   }
 
+  /// Calls take_system_tick (hal/start/image_end.hpp) every so many processor clocks.
+  /// @param clocks  2 ... 2^24
+  static void interrupt_every(std::uint32_t clocks) {
+    registers().reload = clocks - 1;
+    registers().current = 0;
+    registers().control = enabled_on_processor_clock | interrupting;
+  }
+
+  static void stop() { registers().control = 0; }
+
   static std::uint32_t ticks() { return largest - registers().current; }
 
  private:
@@ -28,6 +38,7 @@ class SysTick {
   };
 
   static constexpr std::uint32_t enabled_on_processor_clock = 5;  // bits 0 and 2
+  static constexpr std::uint32_t interrupting = 2;
 
   static Registers& registers() { return *reinterpret_cast<Registers*>(0xE000E010); }
 };

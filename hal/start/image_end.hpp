@@ -7,6 +7,10 @@ extern "C" {
 /// @param code  what main returned
 [[noreturn]] void leave_image(int code);
 
-/// On any exception or interrupt, since none is expected: puts the board into a safe state.
+/// On any exception or interrupt that is not expected: puts the board into a safe state.
 [[noreturn]] void take_exception();
+
+/// On the interrupt of the processor's system timer. An image that expects it defines it, for one as the
+/// carrier's interrupt; in any other it is take_exception.
+void take_system_tick();
 }

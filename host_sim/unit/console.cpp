@@ -19,7 +19,7 @@ using app::parameter_labels;
 using std::chrono_literals::operator""s;
 
 /// A save may take 10 s in the unit.
-constexpr std::chrono::milliseconds patience_of_a_save = 12s;
+constexpr std::chrono::milliseconds longest_save = 12s;
 
 constexpr const char* help_text =
     "status, target RATIO, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
@@ -168,7 +168,7 @@ Console::Lines Console::restart() {
 }
 
 Console::Lines Console::confirm() {
-  const auto result = unit_.ask<link::Confirmed>(link::Confirm{}, patience_of_a_save);
+  const auto result = unit_.ask<link::Confirmed>(link::Confirm{}, longest_save);
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     if (refusal->reason == static_cast<std::uint8_t>(link::Reason::not_saved)) {
       return {"parameters confirmed until reset; not saved"};
@@ -222,7 +222,7 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
   link::WriteParameter request{};
   request.parameter = static_cast<std::uint8_t>(parameter);
   request.value = value;
-  const auto result = unit_.ask<link::ParameterWritten>(request, patience_of_a_save);
+  const auto result = unit_.ask<link::ParameterWritten>(request, longest_save);
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     return refuse(*refusal, parameter);
   }

@@ -16,7 +16,8 @@ std::uint16_t any_number() {
 }  // namespace
 
 // A number at random is hardly ever that of the last host, whose answer would come again.
-UnitLink::UnitLink(SerialPort& port) : port_(port), sequence_(any_number()) {
+UnitLink::UnitLink(SerialPort& port, std::chrono::milliseconds patience)
+    : port_(port), patience_(patience), sequence_(any_number()) {
   ask<link::Telemetry>(link::ReadTelemetry{});
 }
 

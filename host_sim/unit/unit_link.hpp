@@ -16,18 +16,21 @@ namespace sonoglide::unit {
 class UnitLink {
  public:
   /// Asks the unit for its telemetry, so that a silent or foreign device is told at once.
-  /// @param port  outlives this
+  static constexpr std::chrono::milliseconds usual_patience{400};
+
+  /// @param port      outlives this
+  /// @param patience  how long an answer may take: longer in an emulator on a busy machine
   /// @throws process::ProcessError  the device answers nothing, or nothing that a unit says
-  explicit UnitLink(SerialPort& port);
+  explicit UnitLink(SerialPort& port, std::chrono::milliseconds patience = usual_patience);
 
   template <class Answer>
   using Result = std::variant<Answer, link::Refusal>;
 
-  /// @param patience  how long the unit may take; then the request is sent again, twice
+  /// @param work  of the unit, before it answers; some time later the request is sent again, twice
   /// @throws process::ProcessError  no answer came
   template <class Answer, class Request>
-  Result<Answer> ask(const Request& request, std::chrono::milliseconds patience = usual_patience) {
-    const link::Frame frame = exchange(link::frame_of(request, 0), patience);
+  Result<Answer> ask(const Request& request, std::chrono::milliseconds work = {}) {
+    const link::Frame frame = exchange(link::frame_of(request, 0), patience_ + work);
     Answer answer{};
     if (link::read(frame, answer)) {
       return answer;
@@ -40,14 +43,13 @@ class UnitLink {
   }
 
  private:
-  static constexpr std::chrono::milliseconds usual_patience{400};
-
   /// @return the answer to the request, whatever sequence number the latter has
   link::Frame exchange(link::Frame request, std::chrono::milliseconds patience);
   bool receive(std::uint16_t sequence, std::chrono::milliseconds patience, link::Frame& answer);
   [[noreturn]] void fail(const std::string& reason) const;
 
   SerialPort& port_;
+  std::chrono::milliseconds patience_;
   link::FrameDecoder decoder_;
   std::uint16_t sequence_;
   bool heard_bytes_ = false;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -82,6 +83,7 @@ class Terminal {
     wait_for([this] {
       try {
         link_.emplace(port_);
+        link_.emplace(port_, 20s);
       } catch (const process::ProcessError&) {
         return false;
       }
@@ -373,6 +375,39 @@ TEST_P(TimedUnitWatchdog, ResetsABoardWhoseLoopStandsStill) {
 
 INSTANTIATE_TEST_SUITE_P(Boards, TimedUnitWatchdog,
                          testing::ValuesIn(tested<const char*>({"mps2-an386", "mps2-an505"})),
+                         named_after_its_board);
+
+/// Control in the interrupt of the system timer, at 20 periods from random orders of three seeds each, on
+/// the smallest processor, one without and one with a floating-point unit.
+class InterruptedUnit : public testing::TestWithParam<const char*> {};
+
+TEST_P(InterruptedUnit, DoesAsTheReplayOfItsOrdersDoes) {
+  const int speed =
+      GetParam() == std::string("microbit") ? 6 : 5;  // an instruction is about a clock
+  for (const char* image : {"target_step_q31_interrupted", "target_step_interrupted"}) {
+    Terminal terminal(emulate(GetParam(), image, speed));
+    unsigned orders = 0;
+    for (int run = 0; run < 60; ++run) {
+      std::istringstream line(terminal.next_line());
+      std::uint32_t reload = 0;
+      std::uint32_t events = 0;
+      std::uint32_t hash = 0;
+      std::uint32_t replayed = 0;
+      std::uint32_t median = 0;
+      std::uint32_t longest = 0;
+      int whole = 0;
+      line >> reload >> events >> hash >> replayed >> median >> longest >> whole;
+      EXPECT_EQ(hash, replayed) << line.str();
+      EXPECT_EQ(whole, 1) << line.str();
+      orders += events;
+    }
+    EXPECT_GT(orders, 600U) << image;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, InterruptedUnit,
+                         testing::ValuesIn(tested<const char*>({"microbit", "mps2-an385",
+                                                                "mps2-an386"})),
                          named_after_its_board);
 
 }  // namespace

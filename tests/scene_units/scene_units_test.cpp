@@ -43,19 +43,34 @@ class Recorded : public loop::ControlPort {
   ControlPort& port_;
 };
 
-/// A unit that was told to start, and that is sent each target.
+/// A carrier period without a sample, for a stop or an order of a unit that does not drive.
+template <class UnitT>
+void pass(UnitT& unit) {
+  unit.supervisor().step({0, 0, false, false});
+  EXPECT_EQ(unit.order_end(), OrderEnd::done);
+}
+
+/// Orders a restart, and lets its carrier period pass.
+template <class UnitT>
+void restart(UnitT& unit) {
+  EXPECT_EQ(unit.restart(unit.supervisor().faults().count()), Answer::taken);
+  pass(unit);
+}
+
+/// A unit that was told to start, and that is sent each target. Its service never ends.
 template <class Parts>
 class UnitPort : public loop::ControlPort {
  public:
-  explicit UnitPort(const FieldDesign<Parts>& design) : unit(design, pages_) {
-    EXPECT_EQ(unit.restart(), Answer::taken);
-  }
+  explicit UnitPort(const FieldDesign<Parts>& design) : unit(design, pages_) { restart(unit); }
 
   void set_target(double friction_ratio) override {
     const auto millionths = static_cast<std::uint32_t>(std::lround(1e6 * friction_ratio));
-    EXPECT_EQ(unit.set_target(millionths), Answer::taken);
+    EXPECT_EQ(unit.set_target(millionths, unit.supervisor().faults().count()), Answer::taken);
   }
-  hal::Drive exchange(const hal::Sample& sample) override { return unit.supervisor().step(sample); }
+  hal::Drive exchange(const hal::Sample& sample) override {
+    unit.supervisor().note_service();
+    return unit.supervisor().step(sample);
+  }
   std::vector<numeric::SignalRecord> signals() const override { return {}; }
 
  private:
@@ -84,9 +99,10 @@ void expect_same(const Drives& found, const Drives& expected) {
 /// What a unit answers to samples after a restart.
 template <class UnitT>
 Drives answers(UnitT& unit, const std::vector<hal::Sample>& samples) {
-  EXPECT_EQ(unit.restart(), Answer::taken);
+  restart(unit);
   Drives drives;
   for (const hal::Sample& sample : samples) {
+    unit.supervisor().note_service();
     drives.push_back(unit.supervisor().step(sample));
   }
   return drives;
@@ -105,9 +121,13 @@ void expect_unit_and_run_agree(const std::string& name, const FieldDesign<Parts>
   EXPECT_EQ(by_unit.control->trace_hash, by_run.control->trace_hash);
   // After a stop and after a fault it is as one that has never run.
   UnitPort<Parts> fresh(design);
+  fresh.unit.stop();
+  pass(fresh.unit);
   fresh.set_target(scene.controller->target_friction_ratio.back().friction_ratio);
+  pass(fresh.unit);
   const Drives first = answers(fresh.unit, run.samples);
   port.unit.stop();
+  pass(port.unit);
   expect_same(answers(port.unit, run.samples), first);
   port.unit.supervisor().step({0, 0, false, false});
   EXPECT_EQ(port.unit.supervisor().drive().fault,

@@ -95,8 +95,12 @@ function(sonoglide_emulated_board name)
     set(timed_images timed)
     # Of the tests, which a tree of the product alone does not have.
     set(exception_main tests/boards/exception_unit.cpp)
+    set(interrupted_main tests/boards/interrupted_unit.cpp)
     if(EXISTS "${PROJECT_SOURCE_DIR}/${exception_main}")
       list(APPEND timed_images exception)
+      if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
+        list(APPEND timed_images interrupted)
+      endif()
     endif()
     foreach(image IN LISTS timed_images)
       sonoglide_images(_${image} SOURCE ${${image}_main} MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}

@@ -25,8 +25,8 @@ class PoweredUnit {
 
   /// As a host would, but without the link.
   void start(int periods = 300) {
-    EXPECT_EQ(unit.restart(), Answer::taken);
-    serve(periods);
+    EXPECT_EQ(unit.restart(unit.supervisor().faults().count()), Answer::taken);
+    serve(1 + periods);
   }
 
   void serve(int periods) {
@@ -440,11 +440,11 @@ std::size_t wire_size(const link::Frame& frame) {
   return link::encode(frame).size;
 }
 
-/// Serves until the drive is off, which takes the stop's own bytes.
+/// Serves until the drive is off: in the period after the stop's last byte.
 void expect_stopped_within(PoweredUnit& powered, std::size_t bytes, const char* what, int when) {
   powered.serve(static_cast<int>(bytes));
-  ASSERT_FALSE(powered.unit.supervisor().driving()) << what << " after " << when;
   powered.serve(1);
+  ASSERT_FALSE(powered.unit.supervisor().driving()) << what << " after " << when;
   ASSERT_EQ(powered.board.latest_drive().amplitude, 0) << what << " after " << when;
 }
 
@@ -510,7 +510,7 @@ TEST(LinkServiceTest, AFaultCancelsTheRestartThatWasSentBeforeIt) {
     powered.put(link::frame_of(link::Restart{}, 2));
     powered.serve(when);
     powered.board.fresh = false;
-    powered.serve(1);
+    powered.serve(2);  // the period of a restart looks at no sample
     powered.board.fresh = true;
     const std::vector<link::Frame> frames = powered.answers();
     ASSERT_EQ(frames.size(), 2U) << when;
@@ -560,7 +560,7 @@ RC_GTEST_PROP(LinkServiceTest, AStopActsBehindAnyBytes, ()) {
   const auto noise = *rc::gen::arbitrary<std::vector<std::uint8_t>>();
   powered.wire.to_unit.insert(powered.wire.to_unit.end(), noise.begin(), noise.end());
   powered.put(link::frame_of(link::Stop{}, *rc::gen::arbitrary<std::uint16_t>()));
-  powered.serve(static_cast<int>(powered.wire.to_unit.size()));
+  powered.serve(static_cast<int>(powered.wire.to_unit.size()) + 1);
   RC_ASSERT(!powered.unit.supervisor().driving());
 }
 
@@ -782,8 +782,7 @@ TEST(LinkServiceTest, SilenceIsCountedToThePeriod) {
     SimulatedFlash flash;
     PoweredUnit powered(flash);
     powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::host_timeout, timeout_ms));
-    powered.unit.restart();
-    powered.serve(static_cast<int>(60 * timeout_ms));
+    powered.start(static_cast<int>(60 * timeout_ms));
     EXPECT_EQ(powered.unit.supervisor().faults().count(), 0U) << timeout_ms;
     powered.serve(1);
     EXPECT_EQ(powered.unit.supervisor().faults().count(), 1U) << timeout_ms;

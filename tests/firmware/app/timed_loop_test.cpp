@@ -249,6 +249,38 @@ TEST(TimedLoopWrap, IsNoFault) {
   EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
 }
 
+// Control goes on in its interrupt; nobody would hear a stop.
+TEST(HangingService, TakesTheDriveAwayAndStarvesTheWatchdog) {
+  SimulatedFlash flash;
+  TestedUnit unit(field_design, flash);
+  TimedBoard board;
+  CountingWatchdog watchdog;
+  NoService service;
+  TimedLoop loop(unit.supervisor(), board, watchdog, service);
+  unit.restart(0);
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_TRUE(loop.serve());
+  }
+  constexpr int limit = 3000;  // 50 ms
+  for (int i = 0; i < limit; ++i) {
+    ASSERT_TRUE(loop.control());
+    ASSERT_GT(board.latest_drive().amplitude, 0) << i;
+  }
+  EXPECT_EQ(watchdog.feeds, 200 + limit);
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(loop.control());
+    ASSERT_EQ(board.latest_drive().amplitude, 0) << i;
+  }
+  EXPECT_EQ(watchdog.feeds, 200 + limit);
+  EXPECT_EQ(board.latest_drive().fault, static_cast<std::uint8_t>(UnitFault::service_stalled));
+  EXPECT_EQ(unit.supervisor().faults().count(), 1U);
+  // A service that comes round again feeds the watchdog, and restarts nothing.
+  ASSERT_TRUE(loop.serve());
+  ASSERT_TRUE(loop.serve());
+  EXPECT_EQ(watchdog.feeds, 200 + limit + 1);
+  EXPECT_EQ(board.latest_drive().amplitude, 0);
+}
+
 /// A supervisor with a host, and the loop around it.
 class HostedLoopTest : public testing::Test {
  protected:
@@ -392,7 +424,8 @@ RC_GTEST_PROP(TimedLoopCommands, AreThoseOfTheLockstepLoopBitForBit, ()) {
   hal::NoWatchdog watchdog;
   NoService service;
   TimedLoop timed(unit.supervisor(), timed_board, watchdog, service);
-  unit.restart();
+  unit.restart(0);
+  timed.serve();  // a restart has a period of its own
 
   const auto code = rc::gen::arbitrary<std::int32_t>();
   const int periods = *rc::gen::inRange(1, 200);

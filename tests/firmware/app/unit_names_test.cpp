@@ -74,7 +74,8 @@ TEST(UnitCodes, OfFaultsAreThoseOfTheReference) {
                         {33, "watchdog_reset"},
                         {34, "host_silent"},
                         {35, "parameters_lost"},
-                        {36, "parameters_of_other_design"}};
+                        {36, "parameters_of_other_design"},
+                        {37, "service_stalled"}};
   for (const auto& [number, word] : faults) {
     EXPECT_EQ(fault_name(static_cast<std::uint8_t>(number)), word) << number;
   }

@@ -1,0 +1,241 @@
+/// A supervised controller whose orders come from a service that it may interrupt.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "firmware/app/host_ramp.hpp"
+#include "firmware/app/order_slot.hpp"
+#include "firmware/app/sequence_lock.hpp"
+#include "firmware/app/supervisor.hpp"
+#include "hal/board.hpp"
+
+namespace sonoglide::app {
+
+/// What a carrier period showed and what was answered, as the service sees it.
+struct Snapshot {
+  std::uint32_t periods;  ///< served since reset, wraps
+  std::int32_t friction_force;
+  std::int32_t sliding_velocity;
+  hal::Drive drive;
+
+  /// The controller runs, or the drive ramps down.
+  bool driving() const {
+    const auto state = static_cast<control::State>(drive.state);
+    return (state != control::State::off && state != control::State::fault) || drive.amplitude != 0;
+  }
+};
+
+/// The control side is called once in each carrier period, from the carrier's interrupt or from a loop:
+/// step(), trip(), serviced() and publish(). The service side is called from anywhere that the control
+/// side may interrupt. No side waits for the other.
+///
+/// In each carrier period the control side does one of these: a stop, an order to restart or to take
+/// other parameters, or a step of the controller, with a new target if one is ordered. So its longest
+/// period is hardly longer than a step. In the period of a restart the drive is at zero.
+///
+/// If the host is silent for longer than the timeout while the unit drives, the fault is host_silent, and
+/// the drive ramps down. If the service does not come round for its time while the unit drives, the
+/// fault is service_stalled: nobody could stop the drive any more.
+///
+/// @tparam Designed  see Controller::settle_at
+/// @tparam Atomic    std::atomic, or what a test puts in its place
+template <class ControllerT, class Designed, template <class> class Atomic = std::atomic>
+class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
+  using Base = Supervisor<ControllerT, HostRamp>;
+
+ public:
+  using Scalar = typename Base::Scalar;
+  using Parameters = typename ControllerT::Parameters;
+
+  enum class Kind : std::uint8_t { restart, target, parameters };
+
+  /// What is ordered; a later fault than those it knows of overtakes a restart and a target.
+  struct Order {
+    Kind kind = Kind::restart;
+    std::uint32_t faults = 0;
+    Scalar half_ratio{};
+    std::uint32_t timeout_periods = 0;
+    Parameters parameters{};
+  };
+
+  using Work = typename OrderSlot<Order, Atomic>::Work;
+
+  /// @param parameters       of the controller
+  /// @param designed         where it finds its tables; outlives this
+  /// @param timeout_periods  for which the host may be silent; 0: for ever
+  /// @param service_periods  in which the service comes round
+  CommandedSupervisor(const Parameters& parameters, const Designed& designed,
+                      std::uint32_t timeout_periods, std::uint32_t service_periods)
+      : Base(parameters),
+        designed_(designed),
+        timeout_periods_(timeout_periods),
+        service_periods_(service_periods) {
+    Base::settle_at(designed_);
+  }
+
+  // ---- The control side's ----
+
+  /// One carrier period.
+  const hal::Drive& step(const hal::Sample& sample) { return step(sample, look()); }
+
+  /// What the service wants of the carrier period that begins.
+  Work look() { return orders_.look(); }
+
+  /// A carrier period with what look() gave, here or in the run that is replayed.
+  const hal::Drive& step(const hal::Sample& sample, const Work& work) {
+    Base::begin(sample);
+    if (work.stop) {
+      Base::stop();
+      return Base::drive();
+    }
+    if (work.order != nullptr && !carry_out(*work.order)) {
+      return Base::drive();
+    }
+    watch_service();
+    watch_host();
+    return Base::answer();
+  }
+
+  /// The service came round of late.
+  bool serviced() const { return stalled_periods_ < service_periods_; }
+
+  /// Shows the period to the service; after step() and trip().
+  void publish() {
+    const hal::Sample& sample = Base::sample();
+    const hal::Drive& drive = Base::drive();
+    shown_.begin();
+    shown_.write(0, Base::periods());
+    shown_.write(1, static_cast<std::uint32_t>(sample.friction_force));
+    shown_.write(2, static_cast<std::uint32_t>(sample.sliding_velocity));
+    shown_.write(3, static_cast<std::uint32_t>(drive.amplitude));
+    shown_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
+    shown_.write(5, drive.state | std::uint32_t{drive.limit} << 8 |
+                        std::uint32_t{drive.fault} << 16 | std::uint32_t{drive.settling} << 24);
+    shown_.end();
+  }
+
+  // ---- The service's ----
+
+  Snapshot snapshot() const {
+    Snapshot result{};
+    shown_.read_whole([&] {
+      result.periods = shown_.read(0);
+      result.friction_force = static_cast<std::int32_t>(shown_.read(1));
+      result.sliding_velocity = static_cast<std::int32_t>(shown_.read(2));
+      const std::uint32_t codes = shown_.read(5);
+      result.drive = {
+          static_cast<std::int32_t>(shown_.read(3)), static_cast<std::int32_t>(shown_.read(4)),
+          static_cast<std::uint8_t>(codes),          static_cast<std::uint8_t>(codes >> 8),
+          static_cast<std::uint8_t>(codes >> 16),    static_cast<std::uint8_t>(codes >> 24)};
+    });
+    return result;
+  }
+
+  /// Zero drive from the next carrier period on, until a restart that is ordered later.
+  void order_stop() { orders_.stop(); }
+
+  /// The orders; none while one is pending.
+  /// @param faults  as many as were known when the order was given: a later fault overtakes it
+  void order_restart(std::uint32_t faults) {
+    orders_.draft().kind = Kind::restart;
+    orders_.draft().faults = faults;
+    orders_.post();
+  }
+  /// @param half_ratio  see Controller::set_target
+  /// @param faults      as of a restart
+  void order_target(Scalar half_ratio, std::uint32_t faults) {
+    orders_.draft().kind = Kind::target;
+    orders_.draft().faults = faults;
+    orders_.draft().half_ratio = half_ratio;
+    orders_.post();
+  }
+  /// Another controller in its place; only while the unit does not drive.
+  void order_parameters(const Parameters& parameters, Scalar half_ratio,
+                        std::uint32_t timeout_periods) {
+    Order& order = orders_.draft();
+    order.kind = Kind::parameters;
+    order.half_ratio = half_ratio;
+    order.timeout_periods = timeout_periods;
+    order.parameters = parameters;
+    orders_.post();
+  }
+  /// Of the order that was given last.
+  OrderEnd order_end() const { return orders_.end(); }
+
+  /// The host gave a sign of life.
+  void hear_host() { heard_.store(++heard_by_service_, std::memory_order_release); }
+
+  /// The service comes round.
+  void note_service() { rounds_.store(++rounds_of_service_, std::memory_order_release); }
+
+ private:
+  /// @return whether the period has its step all the same
+  bool carry_out(const Order& order) {
+    if (order.kind != Kind::parameters && order.faults != Base::faults().count()) {
+      orders_.finish(OrderEnd::overtaken);
+      return true;
+    }
+    switch (order.kind) {
+      case Kind::restart:
+        silent_periods_ = 0;
+        start();
+        break;
+      case Kind::target:
+        Base::set_target(order.half_ratio);
+        break;
+      case Kind::parameters:
+        timeout_periods_ = order.timeout_periods;
+        Base::reconfigure(order.parameters);
+        Base::settle_at(designed_);
+        Base::set_target(order.half_ratio);
+        break;
+    }
+    const bool steps = order.kind == Kind::target;
+    orders_.finish(OrderEnd::done);
+    return steps;
+  }
+
+  // Out of line: in the controller it is a lot of code.
+  [[gnu::noinline]] void start() { Base::restart(); }
+
+  void watch_host() {
+    const std::uint32_t heard = heard_.load(std::memory_order_acquire);
+    if (heard != heard_last_) {
+      heard_last_ = heard;
+      silent_periods_ = 0;
+    }
+    if (timeout_periods_ != 0 && Base::driving() && silent_periods_++ >= timeout_periods_) {
+      Base::ramp_down(UnitFault::host_silent);
+    }
+  }
+
+  void watch_service() {
+    const std::uint32_t rounds = rounds_.load(std::memory_order_acquire);
+    if (rounds != rounds_last_) {
+      rounds_last_ = rounds;
+      stalled_periods_ = 0;
+      return;
+    }
+    stalled_periods_ += serviced() ? 1U : 0U;
+    if (!serviced() && Base::driving()) {
+      Base::trip(UnitFault::service_stalled);
+    }
+  }
+
+  const Designed& designed_;
+  std::uint32_t timeout_periods_;
+  std::uint32_t service_periods_;
+  std::uint32_t silent_periods_ = 0;
+  std::uint32_t stalled_periods_ = 0;
+  std::uint32_t heard_last_ = 0;
+  std::uint32_t rounds_last_ = 0;
+  std::uint32_t heard_by_service_ = 0;
+  std::uint32_t rounds_of_service_ = 0;
+  Atomic<std::uint32_t> heard_{0};
+  Atomic<std::uint32_t> rounds_{0};
+  OrderSlot<Order, Atomic> orders_;
+  SequenceLock<6, Atomic> shown_;
+};
+
+}  // namespace sonoglide::app

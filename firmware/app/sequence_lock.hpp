@@ -1,0 +1,51 @@
+/// Words that one side writes at any moment and the other reads whole, without a lock.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace sonoglide::app {
+
+/// The writer, an interrupt or another thread, never waits. The reader reads again where the writer
+/// came in between; it must not interrupt the writer.
+///
+/// Source: Boehm, Can Seqlocks Get Along with Programming Language Memory Models?, MSPC 2012: the words
+/// themselves are atomic, and released one by one, so that no barrier stands alone.
+template <std::size_t Words, template <class> class Atomic = std::atomic>
+class SequenceLock {
+ public:
+  // ---- The writer's ----
+
+  void begin() { sequence_.store(written_ + 1, std::memory_order_relaxed); }
+  void write(std::size_t word, std::uint32_t value) {
+    words_[word].store(value, std::memory_order_release);
+  }
+  void end() {
+    written_ += 2;
+    sequence_.store(written_, std::memory_order_release);
+  }
+
+  // ---- The reader's ----
+
+  /// Calls `take`, again until no write fell into it. Inside, read() gives the words.
+  template <class Take>
+  void read_whole(const Take& take) const {
+    std::uint32_t before = 0;
+    do {
+      before = sequence_.load(std::memory_order_acquire);
+      take();
+    } while (before % 2 != 0 || sequence_.load(std::memory_order_relaxed) != before);
+  }
+  std::uint32_t read(std::size_t word) const {
+    return words_[word].load(std::memory_order_acquire);
+  }
+
+ private:
+  std::array<Atomic<std::uint32_t>, Words> words_{};
+  Atomic<std::uint32_t> sequence_{0};  ///< odd while the writer writes
+  std::uint32_t written_ = 0;          ///< the same, of the writer alone
+};
+
+}  // namespace sonoglide::app
