@@ -33,6 +33,7 @@ FrictionResponse friction_response(const VibratedContact& contact);
 
 /// Half the swing of the mean friction of a carrier period, over Fc, under a small free vibration whose
 /// velocity has the amplitude of 1, in multiples of the peak vibration velocity.
+/// Within 5 % of that of the contact itself up to κ = 20, within 12 % up to 150; exact for Coulomb friction.
 /// @param turn  by which it turns in a carrier period, rad
 double ratio_swing(const VibratedContact& contact, double turn);
 

@@ -117,5 +117,48 @@ TEST(FrictionResponseTest, ASharpenedReadingAddsUpToOne) {
   EXPECT_NEAR(response.forced[0] + response.forced[1] + response.forced[2], 1.0, 1e-9);
 }
 
+/// By how much the mean of a period differs from that of the steady vibration, after many periods with a
+/// free vibration, over its amplitude.
+double answer_to(const VibratedContact& contact, double periodic, double turn,
+                 std::complex<double> amplitude) {
+  constexpr double little = 0.02;
+  std::array<double, 2> shown{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    double friction = periodic;
+    std::complex<double> mode = (side == 0 ? little : -little) * amplitude;
+    for (int period = 0; period < 12; ++period) {
+      const Period now = period_of(contact, friction, {0.0, turn}, {0.0, mode});
+      friction = now.end;
+      shown[side] = now.mean;
+      mode *= std::polar(1.0, turn);
+    }
+  }
+  return (shown[0] - shown[1]) / (2.0 * little);
+}
+
+/// In quadrature, two free vibrations show the swing of every one.
+TEST(RatioSwingTest, IsThatOfTheContactItself) {
+  for (const double kappa : {0.1, 2.0, 20.0}) {
+    for (const double ratio : {0.3, 0.85}) {
+      const VibratedContact contact{ratio, kappa, 1.1};
+      const double periodic = periodic_friction(contact);
+      for (const double turn : {0.06, 3.1}) {
+        const double swing = std::hypot(answer_to(contact, periodic, turn, {1.0, 0.0}),
+                                        answer_to(contact, periodic, turn, {0.0, 1.0}));
+        EXPECT_NEAR(ratio_swing(contact, turn), swing, 0.05 * swing)
+            << kappa << ", " << ratio << ", " << turn;
+      }
+    }
+  }
+}
+
+/// Coulomb: ρ = (2/π) asin(r + d) of a velocity d that is constant has the slope 2/(π √(1 − r²)).
+TEST(RatioSwingTest, OfASlowModeIsTheSlopeOfTheMap) {
+  for (const double ratio : {0.3, 0.6, 0.85}) {
+    const VibratedContact contact{ratio, std::numeric_limits<double>::infinity(), 0.3};
+    EXPECT_NEAR(ratio_swing(contact, 0.0), 4.0 / two_pi / std::sqrt(1.0 - ratio * ratio), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::configure::friction_response_test
