@@ -126,6 +126,28 @@ void require_arrays(std::size_t n, const Elements*... arrays) {
   }
 }
 
+template <Type Wanted>
+bool is_of(Type type) {
+  return type == Wanted;
+}
+
+/// Takes or gives a value of each variable.
+/// @param type   of all of them, as the interface calls it
+/// @param is_it  whether a type of variables is that one
+/// @param call   with a reference and its element of the values
+template <class Element, class Call>
+void for_each_value(Instance& instance, const std::uint32_t* references, std::size_t n,
+                    Element* values, const char* type, bool (*is_it)(Type), const Call& call) {
+  require_arrays(n, references, values);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Variable& variable = instance.variable(references[i]);
+    if (!is_it(variable.type())) {
+      throw CallError(variable.name + " is no " + type);
+    }
+    call(references[i], values[i]);
+  }
+}
+
 inline void require_categories(std::size_t count, const char* const* categories) {
   require_arrays(count, categories);
   for (std::size_t i = 0; i < count; ++i) {

@@ -81,14 +81,8 @@ std::string path_of(std::string_view uri) {
   return path;
 }
 
-void require(const Variable& variable, bool right, const char* type) {
-  if (!right) {
-    throw CallError(variable.name + " is no " + type);
-  }
-}
-
-bool is_real(const Variable& variable) {
-  return variable.type() == Type::float64 || variable.type() == Type::float32;
+bool is_real(Type type) {
+  return type == Type::float64 || type == Type::float32;
 }
 
 double real_of(const Value& value) {
@@ -166,58 +160,50 @@ fmi2Status fmi2Reset(fmi2Component component) {
 fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference references[],
                        std::size_t n, fmi2Real values[]) {
   return attempt(component, [&](Instance& each) {
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      require(each.variable(references[i]), is_real(each.variable(references[i])), "Real");
-      values[i] = real_of(each.get(references[i]));
-    }
+    for_each_value(each, references, n, values, "Real", is_real,
+                   [&each](fmi2ValueReference reference, fmi2Real& value) {
+                     value = real_of(each.get(reference));
+                   });
   });
 }
 
 fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference references[],
                           std::size_t n, fmi2Integer values[]) {
   return attempt(component, [&](Instance& each) {
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Variable& variable = each.variable(references[i]);
-      require(variable, variable.type() == Type::int32, "Integer");
-      values[i] = std::get<std::int32_t>(each.get(references[i]));
-    }
+    for_each_value(each, references, n, values, "Integer", is_of<Type::int32>,
+                   [&each](fmi2ValueReference reference, fmi2Integer& value) {
+                     value = std::get<std::int32_t>(each.get(reference));
+                   });
   });
 }
 
 fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference references[],
                          std::size_t n, fmi2String values[]) {
   return attempt(component, [&](Instance& each) {
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Variable& variable = each.variable(references[i]);
-      require(variable, variable.type() == Type::string, "String");
-      values[i] = each.get_text(references[i]).c_str();
-    }
+    for_each_value(each, references, n, values, "String", is_of<Type::string>,
+                   [&each](fmi2ValueReference reference, fmi2String& value) {
+                     value = each.get_text(reference).c_str();
+                   });
   });
 }
 
 fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference references[],
                        std::size_t n, const fmi2Real values[]) {
   return attempt(component, [&](Instance& each) {
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      require(each.variable(references[i]), is_real(each.variable(references[i])), "Real");
-      each.set(references[i], values[i]);
-    }
+    for_each_value(each, references, n, values, "Real", is_real,
+                   [&each](fmi2ValueReference reference, const fmi2Real& value) {
+                     each.set(reference, value);
+                   });
   });
 }
 
 fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference references[],
                           std::size_t n, const fmi2Integer values[]) {
   return attempt(component, [&](Instance& each) {
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Variable& variable = each.variable(references[i]);
-      require(variable, variable.type() == Type::int32, "Integer");
-      each.set(references[i], values[i]);
-    }
+    for_each_value(each, references, n, values, "Integer", is_of<Type::int32>,
+                   [&each](fmi2ValueReference reference, const fmi2Integer& value) {
+                     each.set(reference, value);
+                   });
   });
 }
 

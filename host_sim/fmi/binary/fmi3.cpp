@@ -3,7 +3,6 @@
 #include <cstring>
 #include <memory>
 #include <string>
-#include <type_traits>
 
 #include "host_sim/fmi/binary/component.hpp"
 
@@ -39,53 +38,17 @@ fmi3Instance no_instance(fmi3InstanceEnvironment environment, fmi3LogMessageCall
   return nullptr;
 }
 
-void require_type(const Variable& variable, Type type, const char* name) {
-  if (variable.type() != type) {
-    throw CallError(variable.name + " is no " + name);
-  }
-}
-
-void require_as_many(std::size_t references, std::size_t values) {
-  if (references != values) {
-    throw CallError("there are not as many values as value references; no variable is an array");
-  }
-}
-
-template <class Number>
-constexpr Type type_of() {
-  if constexpr (std::is_same_v<Number, double>) {
-    return Type::float64;
-  } else if constexpr (std::is_same_v<Number, float>) {
-    return Type::float32;
-  } else {
-    static_assert(std::is_same_v<Number, std::int32_t>);
-    return Type::int32;
-  }
-}
-
-template <class Number>
-fmi3Status get(fmi3Instance instance, const char* name, const fmi3ValueReference* references,
-               std::size_t n, Number* values, std::size_t value_count) {
+/// @param call  with a reference and its element of the values
+template <Type Wanted, class Element, class Call>
+fmi3Status for_each(fmi3Instance instance, const char* type, const fmi3ValueReference* references,
+                    std::size_t n, Element* values, std::size_t value_count, const Call& call) {
   return attempt(instance, [&](Instance& each) {
-    require_as_many(n, value_count);
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      require_type(each.variable(references[i]), type_of<Number>(), name);
-      values[i] = std::get<Number>(each.get(references[i]));
+    if (n != value_count) {
+      throw CallError("there are not as many values as value references; no variable is an array");
     }
-  });
-}
-
-template <class Number>
-fmi3Status set(fmi3Instance instance, const char* name, const fmi3ValueReference* references,
-               std::size_t n, const Number* values, std::size_t value_count) {
-  return attempt(instance, [&](Instance& each) {
-    require_as_many(n, value_count);
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      require_type(each.variable(references[i]), type_of<Number>(), name);
-      each.set(references[i], static_cast<double>(values[i]));
-    }
+    for_each_value(
+        each, references, n, values, type, is_of<Wanted>,
+        [&](fmi3ValueReference reference, Element& value) { call(each, reference, value); });
   });
 }
 
@@ -159,30 +122,32 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
   return attempt(instance, [](Instance& each) { each.reset(); });
 }
 
-#define SONOGLIDE_FMI3_NUMBERS(Type)                                                            \
-  fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference references[],        \
-                           std::size_t n, fmi3##Type values[], std::size_t value_count) {       \
-    return get(instance, #Type, references, n, values, value_count);                            \
+#define SONOGLIDE_FMI3_NUMBERS(Name, type)                                                      \
+  fmi3Status fmi3Get##Name(fmi3Instance instance, const fmi3ValueReference references[],        \
+                           std::size_t n, fmi3##Name values[], std::size_t value_count) {       \
+    return for_each<Type::type>(instance, #Name, references, n, values, value_count,            \
+                                [](Instance& each, fmi3ValueReference at, fmi3##Name& value) {  \
+                                  value = std::get<fmi3##Name>(each.get(at));                   \
+                                });                                                             \
   }                                                                                             \
-  fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference references[],        \
-                           std::size_t n, const fmi3##Type values[], std::size_t value_count) { \
-    return set(instance, #Type, references, n, values, value_count);                            \
+  fmi3Status fmi3Set##Name(fmi3Instance instance, const fmi3ValueReference references[],        \
+                           std::size_t n, const fmi3##Name values[], std::size_t value_count) { \
+    return for_each<Type::type>(instance, #Name, references, n, values, value_count,            \
+                                [](Instance& each, fmi3ValueReference at, fmi3##Name value) {   \
+                                  each.set(at, static_cast<double>(value));                     \
+                                });                                                             \
   }
-SONOGLIDE_FMI3_NUMBERS(Float32)
-SONOGLIDE_FMI3_NUMBERS(Float64)
-SONOGLIDE_FMI3_NUMBERS(Int32)
+SONOGLIDE_FMI3_NUMBERS(Float32, float32)
+SONOGLIDE_FMI3_NUMBERS(Float64, float64)
+SONOGLIDE_FMI3_NUMBERS(Int32, int32)
 #undef SONOGLIDE_FMI3_NUMBERS
 
 fmi3Status fmi3GetString(fmi3Instance instance, const fmi3ValueReference references[],
                          std::size_t n, fmi3String values[], std::size_t value_count) {
-  return attempt(instance, [&](Instance& each) {
-    require_as_many(n, value_count);
-    require_arrays(n, references, values);
-    for (std::size_t i = 0; i < n; ++i) {
-      require_type(each.variable(references[i]), Type::string, "String");
-      values[i] = each.get_text(references[i]).c_str();
-    }
-  });
+  return for_each<Type::string>(instance, "String", references, n, values, value_count,
+                                [](Instance& each, fmi3ValueReference at, fmi3String& value) {
+                                  value = each.get_text(at).c_str();
+                                });
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference reference,
