@@ -10,6 +10,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/paper/runs.hpp"
+#include "host_sim/studies/table_1.hpp"
 
 namespace sonoglide::paper {
 
@@ -54,7 +55,7 @@ double stribeck_closed_form(double velocity_ratio) {
 std::vector<ContactLaw> make_laws() {
   const double dahl = dahl_number(table_1());
   return {{"Coulomb", "coulomb", coulomb_contact, friction::coulomb_friction_ratio<double>},
-          {"Dahl", "dahl", std::string(dahl_contact),
+          {"Dahl", "dahl", std::string(table_1::contact),
            [dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); }},
           {"LuGre", "lugre", lugre_contact, {}},
           {"Iwan", "iwan", iwan_contact, {}},

@@ -11,6 +11,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "host_sim/studies/table_1.hpp"
 
 namespace sonoglide::paper {
 namespace {
@@ -38,38 +39,30 @@ struct Parts {
 
 std::string text_of(const Parts& parts) {
   return fmt::format(R"(# {}
-[plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-{}
+{}{}
 [friction]
 {}
-[sliding]
-velocity_m_per_s = 0.026714794439561918
-
-[drive]
-frequency_Hz = 60e3
-force_amplitude_N = 384.0
-
+{}
 [solver]
 {}
 [run]
 {})",
-                     parts.title, parts.start, parts.contact, parts.solver, parts.run);
+                     parts.title, table_1::plant, parts.start, parts.contact, table_1::motion,
+                     parts.solver, parts.run);
 }
 
 }  // namespace
 
 std::string table_1_text() {
   return text_of({"The paper's Table 1 at 384 N and a velocity ratio of 0.5, from rest.",
-                  dahl_contact, own_method, start_from_rest});
+                  table_1::contact, own_method, start_from_rest});
 }
 
 std::string table_2_text() {
   return text_of(
       {"The paper's Table 2: Table 1 and the paper's own solver, 1000 steps in a carrier "
        "period.",
-       dahl_contact, printed_method, start_from_rest});
+       table_1::contact, printed_method, start_from_rest});
 }
 
 std::string table_1_text(std::string_view contact) {

@@ -12,10 +12,6 @@ namespace sonoglide::paper {
 
 // The paper's Tables 1 and 2 as scenes, and their variations. Table 2 adds the solver.
 
-/// The [friction] table's keys.
-inline constexpr std::string_view dahl_contact =
-    "law = \"dahl\"\ncoefficient = 0.1\ncontact_stiffness_N_per_m = 0.056e6\n";
-
 /// 384 N, velocity ratio 0.5, from rest, 100 carrier periods: the file table_1.toml of the output.
 std::string table_1_text();
 

@@ -1,5 +1,7 @@
 #include "host_sim/studies/stability/stability_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +10,9 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/stability/trial.hpp"
+#include "host_sim/studies/table_1.hpp"
 
 namespace sonoglide::stability {
 namespace {
@@ -16,38 +20,19 @@ namespace {
 constexpr double reference_tolerance = 1e-12;
 constexpr double check_tolerance = 1e-13;
 
-/// The plant of Table 1, and the drive of the paper's figures 4 to 6.
-constexpr double mass_kg = 0.02;
-constexpr double stiffness_N_per_m = 133e6;
-constexpr double frequency_Hz = 60e3;
-constexpr double force_amplitude_N = 384.0;
-constexpr double coefficient = 0.1;
-constexpr double normal_force_N = 0.1962;
-constexpr double velocity_ratio = 0.5;
-
-scene::Plant table_1_plant() {
-  scene::Plant plant;
-  plant.mass_kg = mass_kg;
-  plant.stiffness_N_per_m = stiffness_N_per_m;
-  return plant;
+const scene::Scene& table_1_scene() {
+  static const scene::Scene scene = scene_file::read_text(
+      fmt::format(
+          "{}[friction]\n{}{}[solver]\nmethod = \"event_taylor\"\n[run]\nduration_periods = 1\n",
+          table_1::plant, table_1::contact, table_1::motion),
+      "table_1.toml");
+  return scene;
 }
 
-double vibration_m_per_s() {
-  return configure::peak_vibration_m_per_s(table_1_plant(), frequency_Hz, force_amplitude_N);
-}
-
-scene::Scene table_1(double contact_stiffness_N_per_m, int periods) {
-  scene::Scene scene;
-  scene.plant = table_1_plant();
-  scene.friction.law = scene::laws::Dahl{};
-  scene.friction.coefficient = coefficient;
-  scene.friction.normal_force_N = normal_force_N;
+scene::Scene scene_of(double contact_stiffness_N_per_m, int periods) {
+  scene::Scene scene = table_1_scene();
   scene.friction.contact_stiffness_N_per_m = contact_stiffness_N_per_m;
-  scene.sliding.profile = {{0.0, velocity_ratio * vibration_m_per_s()}};
-  scene.drive = scene::Drive{};
-  scene.drive->frequency_Hz = frequency_Hz;
-  scene.drive->force_amplitude_N = force_amplitude_N;
-  scene.run.duration_s = periods / frequency_Hz;
+  scene.run.duration_s = periods / scene.drive->frequency_Hz;
   return scene;
 }
 
@@ -76,7 +61,7 @@ References references(const MapGrid& grid) {
   const Trial check = precision_of("event_taylor_12").trial;
   References result{{}, 0.0};
   for (const double stiffness : grid.contact_stiffness_N_per_m) {
-    const scene::Scene scene = table_1(stiffness, grid.periods);
+    const scene::Scene scene = scene_of(stiffness, grid.periods);
     const auto ratio = [&](Trial of, double tolerance) {
       return of(scene, {grid.periods, tolerance, plant::max_steps_per_advance}).friction_ratio;
     };
@@ -90,7 +75,7 @@ References references(const MapGrid& grid) {
 
 MapCell cell(const MapGrid& grid, const TriedPrecision& precision, double setting, double stiffness,
              double reference) {
-  const TrialResult result = precision.trial(table_1(stiffness, grid.periods),
+  const TrialResult result = precision.trial(scene_of(stiffness, grid.periods),
                                              {grid.periods, setting, plant::max_steps_per_advance});
   const double error = std::abs(result.friction_ratio / reference - 1.0);
   const Verdict verdict = judge(result, error, accurate_error, precision.friction_bound);
@@ -139,11 +124,15 @@ StabilityMaps stability_maps(const MapGrid& grid, const Progress& progress) {
 }
 
 double rk4_limit_steps_per_period(double contact_stiffness_N_per_m) {
+  const scene::Scene& scene = table_1_scene();
+  const double frequency_Hz = scene.drive->frequency_Hz;
   // From rest the natural mode adds its part to the steady vibration.
-  const double free_part = table_1_plant().natural_rad_per_s() / (numeric::two_pi * frequency_Hz);
-  const double fastest_m_per_s = vibration_m_per_s() * (velocity_ratio + 1.0 + free_part);
-  const double longest_s =
-      2.785 * coefficient * normal_force_N / (contact_stiffness_N_per_m * fastest_m_per_s);
+  const double free_part = scene.plant.natural_rad_per_s() / (numeric::two_pi * frequency_Hz);
+  const double fastest_m_per_s =
+      configure::peak_vibration_m_per_s(scene.plant, frequency_Hz, scene.drive->force_amplitude_N) *
+      (table_1::velocity_ratio + 1.0 + free_part);
+  const double longest_s = 2.785 * scene.friction.coefficient * scene.friction.normal_force_N /
+                           (contact_stiffness_N_per_m * fastest_m_per_s);
   return 1.0 / (frequency_Hz * longest_s);
 }
 
