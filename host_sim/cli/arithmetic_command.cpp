@@ -1,17 +1,14 @@
 #include "host_sim/cli/commands.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/options.hpp"
-#include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
-#include "host_sim/studies/arithmetic/report.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -19,8 +16,7 @@ namespace {
 struct ArithmeticOptions {
   SceneOptions scene;
   std::vector<std::string> boards = {"microbit", "mps2-an385", "mps2-an386", "mps2-an500"};
-  std::string out;  ///< empty: out/<scene name>_arithmetic
-  bool quiet = false;
+  StudyOptions study;
 };
 
 using Boards = std::vector<const emulated::EmulatedBoard*>;
@@ -45,13 +41,12 @@ void arithmetic(const ArithmeticOptions& options) {
     return emulated::controller_header(experiment);
   });
   const Boards boards = chosen(options.boards);
-  const std::filesystem::path out = output_folder(options.out, scene.name, "_arithmetic");
   output::require_gnuplot();
-  require_writable(out, {"arithmetic.csv", "targets.csv", "arithmetic.svg", "report.html"});
-  const arithmetic::ArithmeticComparison comparison = with_bar(
-      options.quiet,
-      [&](const auto& progress) { return arithmetic::compare(experiment, boards, progress); });
-  publish(out, arithmetic::report(scene, comparison), options.quiet);
+  run_study(
+      options.study, output_folder(options.study.out, scene.name, "_arithmetic"),
+      {"arithmetic.csv", "targets.csv", "arithmetic.svg", "report.html"},
+      [&](const auto& progress) { return arithmetic::compare(experiment, boards, progress); },
+      [&](const auto& comparison) { return arithmetic::report(scene, comparison); });
 }
 
 }  // namespace
@@ -69,10 +64,10 @@ void add_arithmetic_command(CLI::App& program) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(check_board);
-  add_output_option(*command, options->out,
+  add_study_options(*command, options->study,
                     "arithmetic.csv, targets.csv, arithmetic.svg and report.html "
-                    "[out/<scene name>_arithmetic]");
-  command->add_flag("--quiet", options->quiet, "No progress bar and no printed table");
+                    "[out/<scene name>_arithmetic]",
+                    "No progress bar and no printed table");
   command->callback([options] { arithmetic(*options); });
 }
 

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host_sim/cli/options.hpp"
-#include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
 
@@ -21,8 +19,7 @@ struct DesignOptions {
   SceneOptions scene;
   std::vector<double> ratios;
   std::string velocity;  ///< FROM:TO in m/s; empty: the scene's
-  std::string out;       ///< empty: out/<scene name>_design
-  bool quiet = false;
+  StudyOptions study;
 };
 
 /// FROM:TO; nothing where it is not of that form or out of order or range.
@@ -61,11 +58,10 @@ void design(const DesignOptions& options) {
   const design::Task task = input.with_places([&] {
     return design::make_task(experiment, options.ratios, parse_speeds(options.velocity));
   });
-  const std::filesystem::path out = output_folder(options.out, experiment.plant.name, "_design");
-  require_writable(out, {"report.html", "design.json", "design.csv", "detuning.csv"});
-  const design::DesignStudy study =
-      with_bar(options.quiet, [&](const auto& progress) { return design::study(task, progress); });
-  publish(out, design::report(study), options.quiet);
+  run_study(
+      options.study, output_folder(options.study.out, experiment.plant.name, "_design"),
+      {"report.html", "design.json", "design.csv", "detuning.csv"},
+      [&](const auto& progress) { return design::study(task, progress); }, design::report);
 }
 
 }  // namespace
@@ -88,10 +84,9 @@ void add_design_command(CLI::App& program) {
                    "Slowest and fastest sliding velocity in m/s, in place of the scene's")
       ->type_name("FROM:TO")
       ->check(check_speeds);
-  add_output_option(*command, options->out,
+  add_study_options(*command, options->study,
                     "report.html, design.json, design.csv and detuning.csv [out/<scene "
                     "name>_design]");
-  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
   command->callback([options] { design(*options); });
 }
 

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -10,7 +9,6 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
-#include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
@@ -26,8 +24,7 @@ struct IdentifyOptions {
   std::string file;
   impedance::MechanicalFact fact;
   std::vector<std::string> laws;
-  std::string out;  ///< empty: out/<file name>_impedance or _friction
-  bool quiet = false;
+  StudyOptions study;
 };
 
 std::function<std::string(const std::string&)> in_range(const impedance::Range& range) {
@@ -45,22 +42,22 @@ std::function<std::string(const std::string&)> in_range(const impedance::Range& 
 void identify_impedance(const IdentifyOptions& options) {
   const scene_file::Source source = identify::read_text(options.file);
   const impedance::Sweep sweep = impedance::read_sweep(source);
-  const std::filesystem::path out = output_folder(options.out, source.name(), "_impedance");
-  require_writable(out, {"report.html", "identify.json", "fit.csv", "scene.toml"});
-  publish(out, impedance::report(impedance::study(source.name(), sweep, options.fact)),
-          options.quiet);
+  run_study(
+      options.study, output_folder(options.study.out, source.name(), "_impedance"),
+      {"report.html", "identify.json", "fit.csv", "scene.toml"},
+      [&](const auto&) { return impedance::study(source.name(), sweep, options.fact); },
+      impedance::report);
 }
 
 /// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
 void identify_friction(const IdentifyOptions& options) {
   const scene_file::Source source = identify::read_text(options.file);
   const fitting::Readings readings = fitting::read_readings(source);
-  const std::filesystem::path out = output_folder(options.out, source.name(), "_friction");
-  require_writable(out, {"report.html", "identify.json", "scene.toml"});
-  const fitting::Comparison comparison = with_bar(options.quiet, [&](const auto& progress) {
-    return fitting::compare(readings, options.laws, progress);
-  });
-  publish(out, fitting::report(comparison, source.name()), options.quiet);
+  run_study(
+      options.study, output_folder(options.study.out, source.name(), "_friction"),
+      {"report.html", "identify.json", "scene.toml"},
+      [&](const auto& progress) { return fitting::compare(readings, options.laws, progress); },
+      [&](const auto& comparison) { return fitting::report(comparison, source.name()); });
 }
 
 CLI::App* add_command(CLI::App& group, const std::string& name, const std::string& description,
@@ -88,10 +85,10 @@ void add_impedance_command(CLI::App& group) {
       ->type_name("N")
       ->check(in_range(impedance::force_factor_range_N_per_V))
       ->excludes(mass);
-  add_output_option(*command, options->out,
+  add_study_options(*command, options->study,
                     "report.html, identify.json, fit.csv and, with a mechanical fact, scene.toml "
-                    "[out/<file name>_impedance]");
-  command->add_flag("--quiet", options->quiet, "No printed summary");
+                    "[out/<file name>_impedance]",
+                    "No printed summary");
   command->callback([options] { identify_impedance(*options); });
 }
 
@@ -106,9 +103,8 @@ void add_friction_command(CLI::App& group) {
       ->type_name("NAME")
       ->allow_extra_args(false)
       ->check(fitting::check_law);
-  add_output_option(*command, options->out,
+  add_study_options(*command, options->study,
                     "report.html, identify.json and scene.toml [out/<file name>_friction]");
-  command->add_flag("--quiet", options->quiet, "No progress bar and no printed summary");
   command->callback([options] { identify_friction(*options); });
 }
 

@@ -10,8 +10,8 @@
 #include "host_sim/output/program.hpp"
 #include "host_sim/process/checksum.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/scene_file/changes.hpp"
 #include "host_sim/scene_file/document.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::cli {
 
@@ -108,15 +108,14 @@ void add_threads_option(CLI::App& command, unsigned& threads) {
       ->check([](const std::string& number) { return check_whole(number, 1, most_threads); });
 }
 
-void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names) {
-  const output::OutputFolder probe(out, names);
+std::string report_line(const std::filesystem::path& out) {
+  return fmt::format("report: {}\n", process::printable((out / "report.html").string()));
 }
 
-void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet) {
-  output::write(out, report);
-  if (!quiet) {
-    fmt::print("{}report: {}\n", report.text, process::printable((out / "report.html").string()));
-  }
+void add_study_options(CLI::App& command, StudyOptions& options, const std::string& contents,
+                       const std::string& quiet) {
+  add_output_option(command, options.out, contents);
+  command.add_flag("--quiet", options.quiet, quiet);
 }
 
 }  // namespace sonoglide::cli

@@ -1,6 +1,7 @@
 /// The options that commands share: the scene, the output folder, the board.
 #pragma once
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -9,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/output/output_folder.hpp"
 
 namespace sonoglide::cli {
@@ -77,14 +79,36 @@ std::function<std::string(const std::string&)> one_of(const std::vector<std::str
 /// What is wrong with a text as a whole number in these bounds; empty for one.
 std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most);
 
-/// Finds out, before results are computed, that an output cannot be written: stages and removes an
-/// empty folder.
-/// @param names  of the files
-/// @throws output::OutputError
-void require_writable(const std::filesystem::path& out, const std::vector<std::string>& names);
+/// Where the report in a folder is, as a line for the terminal.
+std::string report_line(const std::filesystem::path& out);
 
-/// Writes what a study leaves behind, all or nothing, and prints its text and where it is.
+/// Where a study leaves its files, and whether it says so.
+struct StudyOptions {
+  std::string out;  ///< empty: as output_folder() has it
+  bool quiet = false;
+};
+
+/// Adds `--out` and `--quiet` to a command.
+/// @param quiet  what there is not then
+void add_study_options(CLI::App& command, StudyOptions& options, const std::string& contents,
+                       const std::string& quiet = "No progress bar and no printed summary");
+
+/// Computes a study under the progress bar, once it is known that its files can be written; writes
+/// them, all or none, and prints its text and where it is.
+/// @param files    their names
+/// @param compute  gives the study; it is told how to say how far it is
+/// @param report   makes an output::StudyReport of it
 /// @throws output::OutputError
-void publish(const std::filesystem::path& out, const output::StudyReport& report, bool quiet);
+template <class Compute, class Report>
+void run_study(const StudyOptions& options, const std::filesystem::path& out,
+               const std::vector<std::string>& files, const Compute& compute,
+               const Report& report) {
+  { const output::OutputFolder probe(out, files); }
+  const output::StudyReport found = report(with_bar(options.quiet, compute));
+  output::write(out, found);
+  if (!options.quiet) {
+    fmt::print("{}{}", found.text, report_line(out));
+  }
+}
 
 }  // namespace sonoglide::cli

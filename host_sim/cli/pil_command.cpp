@@ -62,7 +62,7 @@ void pil(const PilOptions& options) {
   const loop::RunResult result = compute(experiment, board, header, report, options.quiet);
   report.finish(result);
   if (!options.quiet) {
-    fmt::print("{}", report::run_text(scene, result, report.findings(), out));
+    fmt::print("{}{}", report::run_text(scene, result, report.findings()), report_line(out));
   }
   emulated::require_same(result);
 }

@@ -59,8 +59,9 @@ std::string compute_report(const experiment::Experiment& experiment,
   if (options.json) {
     return report::summary_text(experiment, result, report.findings());
   }
-  return options.quiet ? std::string()
-                       : report::run_text(experiment.plant, result, report.findings(), out);
+  return options.quiet
+             ? std::string()
+             : report::run_text(experiment.plant, result, report.findings()) + report_line(out);
 }
 
 /// Throws scene_file::SceneError, loop::ComputationError, output::OutputError, or ends by the

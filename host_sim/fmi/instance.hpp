@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/fmi/resources.hpp"
 #include "host_sim/fmi/variables.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"

@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "host_sim/process/checksum.hpp"
-#include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/to_toml.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::fmi {
 namespace {

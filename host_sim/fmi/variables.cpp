@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "host_sim/scene/unit_of.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::fmi {
 namespace {

@@ -1,4 +1,4 @@
-/// Parts of a page as HTML.
+/// A page as HTML: its parts, and the files that go into every page.
 #pragma once
 
 #include <string>
@@ -20,5 +20,25 @@ void append_table(std::string& html, const Table& table);
 
 /// The command, the version, the seed, and the scene with its changed values marked.
 void append_what_was_run(std::string& html, const Page& page);
+
+// Built into the program (see assets.cmake).
+
+std::string_view page_css();
+// In this order.
+std::string_view numbers_js();
+std::string_view look_js();
+std::string_view chart_js();
+std::string_view reading_js();
+std::string_view panel_js();
+std::string_view page_js();
+std::string_view glossary_md();
+
+/// Each symbol and each term of the glossary that the page uses, and each symbol in their meanings, in a
+/// folded table; symbols first.
+///
+/// A term may stand in the plural and begin a sentence. Inside a longer term it is not looked for. A
+/// letter behind a number, or in square brackets, is a unit and no symbol. The scene and the command
+/// that were run are left aside.
+Table words_of(const Page& page);
 
 }  // namespace sonoglide::output

@@ -211,12 +211,19 @@ fs::path OutputFolder::new_file(const std::string& name) const {
   return staging_->path() / kNewFiles / name;
 }
 
-void OutputFolder::commit() {
+void OutputFolder::commit(const std::function<void()>& then) {
   for (auto& [name, file] : files_) {
     file->close();
   }
+  std::optional<process::Undisturbed> now;
+  if (then) {
+    now.emplace();
+  }
   std::error_code unknown;
   while (fs::exists(target_, unknown) ? !replace_files() : !place_new_folder()) {
+  }
+  if (then) {
+    then();
   }
 }
 
@@ -306,6 +313,18 @@ bool OutputFolder::replace_files() {
 void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names) {
   { const OutputFolder probe(target, names); }
   create_parents(normal(target));
+}
+
+void write(const std::filesystem::path& folder, const StudyReport& report) {
+  OutputFolder files(folder);
+  for (const auto& [name, content] : report.files) {
+    if (content.empty()) {
+      files.withdraw(name);
+    } else {
+      files.write(name, content);
+    }
+  }
+  files.commit();
 }
 
 }  // namespace sonoglide::output

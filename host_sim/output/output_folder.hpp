@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -101,8 +102,9 @@ class OutputFolder {
   /// Moves the staged files into place, creating missing parents; to be called once, last. An old
   /// file of the same name is replaced. The list of what this program wrote there goes with them. Of
   /// several programs that do so at once one is the last, in every file.
+  /// @param then  what belongs to it: no signal ends the program between
   /// @throws OutputError if a file could not be written or moved; the target is then as before.
-  void commit();
+  void commit(const std::function<void()>& then = {});
 
   const std::filesystem::path& target() const { return target_; }
 

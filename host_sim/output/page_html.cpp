@@ -5,9 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "host_sim/output/assets.hpp"
 #include "host_sim/output/chart.hpp"
-#include "host_sim/output/glossary.hpp"
 #include "host_sim/output/html.hpp"
 #include "host_sim/output/page.hpp"
 

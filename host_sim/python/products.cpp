@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"

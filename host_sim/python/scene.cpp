@@ -7,10 +7,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/to_toml.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::python {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene_file/source.hpp"
 
 namespace sonoglide::python {

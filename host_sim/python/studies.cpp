@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/long_work/pace.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
@@ -87,9 +86,7 @@ Found find_worst(const Scene& scene, std::size_t samples, std::size_t search, st
   const runs::ThreadLimit limit(threads);
   robust::check_samples(task, {0, task.counts().samples});
   robust::Solver solver(task, folder.path(), "sonoglide", {});
-  const long_work::Progress untold;
-  long_work::Pace pace(untold);
-  const robust::Study found = solver.solve(pace);
+  const robust::Study found = solver.solve({});
   return {text_of(robust::to_json(task, found)), task.plant_text(found.worst.factors)};
 }
 

@@ -5,17 +5,110 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "hal/board.hpp"
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/experiment.hpp"
+#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/python/answer.hpp"
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/python/controller_unit.hpp"
 #include "host_sim/python/pickled.hpp"
 #include "host_sim/python/scene.hpp"
 
 namespace sonoglide::python {
 namespace {
+
+configure::Experiment with_controller(configure::Experiment experiment) {
+  if (!experiment.design) {
+    throw configure::ConfigurationError("controller", "missing; allowed: a scene in closed loop");
+  }
+  if (experiment.design->bias) {
+    throw configure::ConfigurationError(
+        "drive.bias_limit_N", "a Unit has no bias force among its answers; allowed: 0, or a Loop");
+  }
+  return experiment;
+}
+
+/// The shipped controller alone: codes in, codes out.
+class ControllerUnit {
+ public:
+  /// Begins with the first target of the scene.
+  /// @throws configure::ConfigurationError  the scene has no controller, or one that answers with a bias
+  explicit ControllerUnit(configure::Experiment experiment);
+
+  /// One control step: the answer to the sample of a carrier period. Of a unit that observes no
+  /// vibration that part of the sample is left out, and the answer's frequency is 0.
+  const hal::ResonantDrive& step(const hal::VibrationSample& sample) {
+    if (scene().sensor.vibration) {
+      answer_ = port_->exchange(sample);
+    } else {
+      static_cast<hal::Drive&>(answer_) = port_->exchange(static_cast<const hal::Sample&>(sample));
+    }
+    return answer_;
+  }
+
+  /// All 0 before the first step.
+  const hal::ResonantDrive& answer() const { return answer_; }
+
+  double target() const { return target_; }
+  /// @throws std::invalid_argument  it is not in (0, 1]
+  void set_target(double friction_ratio);
+
+  bool observes_vibration() const { return scene().sensor.vibration.has_value(); }
+  const configure::ControlScales& scales() const { return experiment_.design->scales; }
+
+  loop::Snapshot save() const;
+  /// @param state  of a unit of the same scene
+  /// @throws std::invalid_argument  it cannot be that
+  void restore(const loop::Snapshot& state);
+
+ private:
+  const scene::Scene& scene() const { return experiment_.plant; }
+
+  configure::Experiment experiment_;
+  std::unique_ptr<loop::ControlPort> port_;
+  double target_ = 0.0;
+  hal::ResonantDrive answer_{};
+};
+
+ControllerUnit::ControllerUnit(configure::Experiment experiment)
+    : experiment_(with_controller(std::move(experiment))),
+      port_(loop::make_control_port(scene(), *experiment_.design)) {
+  set_target(scene().controller->target_friction_ratio.front().friction_ratio);
+}
+
+void ControllerUnit::set_target(double friction_ratio) {
+  if (!(friction_ratio > 0.0 && friction_ratio <= 1.0)) {
+    throw std::invalid_argument(
+        fmt::format("target is {}; allowed: a friction ratio above 0, at most 1", friction_ratio));
+  }
+  target_ = friction_ratio;
+  port_->set_target(friction_ratio);
+}
+
+loop::Snapshot ControllerUnit::save() const {
+  loop::SnapshotWriter writer;
+  writer.put(target_);
+  writer.put(answer_);
+  port_->save(writer);
+  return writer.take();
+}
+
+void ControllerUnit::restore(const loop::Snapshot& state) {
+  loop::SnapshotReader reader(state);
+  reader.get(target_);
+  reader.get(answer_);
+  port_->restore(reader);
+  if (!reader.over()) {
+    throw std::invalid_argument("the state that is to be restored is too long");
+  }
+}
 
 /// An object that computes without the interpreter's lock belongs to one thread meanwhile.
 /// Made and destroyed with the interpreter's lock held.

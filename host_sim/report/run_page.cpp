@@ -8,7 +8,7 @@
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_facts.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::report {
 namespace {

@@ -7,13 +7,12 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"
-#include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_facts.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -393,16 +392,14 @@ std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result)
 }  // namespace
 
 std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
-                     const RunFindings& findings, const std::filesystem::path& out) {
+                     const RunFindings& findings) {
   const std::string lines =
       (scene.controller ? step_lines(scene, result, findings) : ratio_line(scene, result)) +
       electrical_line(result) + note_lines(scene, result);
-  return fmt::format(
-      "{}{}{:.6g} ms simulated with {} in {:.3g} ms, {:.3g} times real time\n"
-      "report: {}\n",
-      lines, result.image ? image_lines(*result.image) : "", result.final_time_s * 1e3,
-      scene::name_of(scene.solver.method), result.wall_s * 1e3, result.final_time_s / result.wall_s,
-      process::printable((out / "report.html").string()));
+  return fmt::format("{}{}{:.6g} ms simulated with {} in {:.3g} ms, {:.3g} times real time\n",
+                     lines, result.image ? image_lines(*result.image) : "",
+                     result.final_time_s * 1e3, scene::name_of(scene.solver.method),
+                     result.wall_s * 1e3, result.final_time_s / result.wall_s);
 }
 
 }  // namespace sonoglide::report

@@ -53,8 +53,8 @@ class RunReport {
   std::optional<TraceCsv> trace_;
 };
 
-/// The result in a few lines, and where the report is.
+/// The result in a few lines.
 std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
-                     const RunFindings& findings, const std::filesystem::path& out);
+                     const RunFindings& findings);
 
 }  // namespace sonoglide::report

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/watch.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::runs {

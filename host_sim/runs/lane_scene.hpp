@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::runs {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
 
 namespace sonoglide::runs {
 

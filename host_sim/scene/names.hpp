@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -98,5 +99,9 @@ constexpr std::string_view name_of(const std::array<Named<Value>, Count>& names,
   }
   return {};
 }
+
+/// The unit that a name ends with, as `m/s` of `sliding_velocity_m_per_s` and of `_m_per_s`; empty of a pure
+/// number.
+std::string unit_of(std::string_view name);
 
 }  // namespace sonoglide::scene

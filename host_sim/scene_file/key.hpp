@@ -30,6 +30,15 @@ struct Range {
   std::string allowed_text() const { return "a number, " + text(); }
 };
 
+// Ranges that several keys have.
+
+inline constexpr double largest_force_N = 1e12;
+inline constexpr double largest_speed_m_per_s = 1e6;
+inline constexpr Range time_range{0.0, 1e9, "s"};
+inline constexpr Range speed_range{-largest_speed_m_per_s, largest_speed_m_per_s, "m/s"};
+inline constexpr Range force_range{0.0, largest_force_N, "N"};
+inline constexpr Range frequency_range{1e-3, 1e9, "Hz"};
+
 inline constexpr double standard_gravity_m_per_s2 = 9.81;
 /// Hours of a carrier: more is a mistyped unit.
 inline constexpr double most_periods = 1e10;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scene/cores/solves.hpp"
+#include "host_sim/scene/cores/solver_choice.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene_file/keys.hpp"

@@ -8,9 +8,9 @@
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/scene_file/key.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/member.hpp"
-#include "host_sim/scene_file/ranges.hpp"
 #include "host_sim/scene_file/uses.hpp"
 
 // How a scene is run, and by whom: solver, run, controller, sensor and model_error.

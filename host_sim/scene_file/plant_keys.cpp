@@ -6,10 +6,10 @@
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/scene_file/key.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/law_keys.hpp"
 #include "host_sim/scene_file/member.hpp"
-#include "host_sim/scene_file/ranges.hpp"
 #include "host_sim/scene_file/uses.hpp"
 
 // What acts on the mass: plant, friction, sliding, transducer and drive.

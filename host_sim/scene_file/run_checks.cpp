@@ -12,8 +12,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
-#include "host_sim/scene/cores/fastest_method.hpp"
-#include "host_sim/scene/cores/solves.hpp"
+#include "host_sim/scene/cores/solver_choice.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene/solver_methods.hpp"

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "host_sim/scene/bound.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/table_cursor.hpp"
 #include "host_sim/scene_file/table_reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::scene_file {
 namespace {

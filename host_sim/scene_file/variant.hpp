@@ -3,10 +3,12 @@
 
 #include <toml++/toml.h>
 
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,15 +18,22 @@ namespace sonoglide::scene_file {
 
 /// Whether a number is written without a point or an exponent, so that TOML takes it for an
 /// integer: a whole one of a magnitude below 1e16, as fmt has it.
-bool is_written_whole(double number);
+inline bool is_written_whole(double number) {
+  constexpr double largest_plain = 1e16;
+  return std::trunc(number) == number && std::abs(number) < largest_plain;
+}
 
 /// A number, a word or a truth value, as the option `--set KEY=VALUE` gives it.
 class VariedValue {
  public:
   /// An integer where it is written whole, a real number otherwise.
-  explicit VariedValue(double number);
-  explicit VariedValue(std::string word);
-  explicit VariedValue(bool truth);
+  explicit VariedValue(double number) : value_(toml::value<double>(number)) {
+    if (is_written_whole(number)) {
+      value_ = toml::value<std::int64_t>(static_cast<std::int64_t>(number));
+    }
+  }
+  explicit VariedValue(std::string word) : value_(toml::value<std::string>(std::move(word))) {}
+  explicit VariedValue(bool truth) : value_(toml::value<bool>(truth)) {}
   VariedValue(const char* word) = delete;  // would be a truth value
 
   const toml::node& node() const {

@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
-#include "tests/host_sim/batch/runs/plants.hpp"
-#include "tests/host_sim/batch/runs/scalar_run.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
+#include "tests/host_sim/runs/batch/runs/plants.hpp"
+#include "tests/host_sim/runs/batch/runs/scalar_run.hpp"
 
 namespace sonoglide::batch {
 namespace {

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
-#include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/to_toml.hpp"
+#include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "hal/board.hpp"
 #include "hal/timed/volatile_pages.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 

@@ -1,5 +1,5 @@
 #include "host_sim/fmi/archive/make_fmu.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 
 #include <fmt/format.h>
 #include <minizip/zip.h>

@@ -1,4 +1,4 @@
-#include "host_sim/studies/arithmetic/report.hpp"
+#include "host_sim/studies/arithmetic/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::arithmetic {
 namespace {

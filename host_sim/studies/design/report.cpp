@@ -6,7 +6,7 @@
 
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::design {
 namespace {

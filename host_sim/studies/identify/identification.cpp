@@ -8,7 +8,7 @@
 
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"
-#include "host_sim/scene/unit_of.hpp"
+#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::identify {
 

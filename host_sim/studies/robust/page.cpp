@@ -11,7 +11,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/extremes_curve.hpp"
 #include "host_sim/report/words.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
 namespace sonoglide::robust {

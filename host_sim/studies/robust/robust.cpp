@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
-#include "host_sim/process/ending.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
@@ -24,15 +24,18 @@ constexpr const char* figures_file = "robust.json";
 constexpr const char* worst_file = "worst.toml";
 constexpr const char* page_file = "report.html";
 
-void write_files(const Task& task, const Study& study, const std::string& page,
-                 const fs::path& out) {
+/// @param then  what belongs to it: files that are written, beside the journal of what they came from,
+///              would pass for older ones
+void write_files(const Task& task, const Study& study, const fs::path& out,
+                 const std::function<void()>& then) {
+  const std::string page = output::to_html(robust_page(task, study));
   output::OutputFolder folder(out);
   write_samples(folder.open(samples_file), task, study);
   write_search(folder.open(search_file), task, study);
   folder.write(figures_file, to_json(task, study).dump(2) + '\n');
   folder.write(worst_file, task.plant_text(study.worst.factors));
   folder.write(page_file, page);
-  folder.commit();
+  folder.commit(then);
 }
 
 /// @param samples  that are known already, from the first on
@@ -44,15 +47,10 @@ Outcome run(const Task& task, const fs::path& out, const std::string& program, u
   // Rows of another arithmetic, which an earlier program had, do not mix with these.
   Solver solver(task, out, fmt::format("{}, {}", program, batch::arithmetic), std::move(samples));
   const double begin_s = long_work::steady_time_s();
-  long_work::Pace pace(progress);
   const std::size_t found_finished = solver.found_finished();
-  Outcome outcome{solver.solve(pace), found_finished, 0.0};
+  Outcome outcome{solver.solve(progress), found_finished, 0.0};
   outcome.wall_s = long_work::steady_time_s() - begin_s;
-  const std::string page = output::to_html(robust_page(task, outcome.study));
-  // Files that are written, beside the journal of what they came from, would pass for older ones.
-  const process::Undisturbed now;
-  write_files(task, outcome.study, page, out);
-  solver.remove_journal();
+  write_files(task, outcome.study, out, [&solver] { solver.remove_journal(); });
   return outcome;
 }
 

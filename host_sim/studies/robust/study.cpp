@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "host_sim/runs/run_many.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/studies/robust/spread.hpp"
 
 namespace sonoglide::robust {
@@ -113,7 +113,8 @@ std::size_t Solver::found_finished() const {
   return (samples_.empty() ? kept_.finished() : samples_.size()) + searched_.size();
 }
 
-Study Solver::solve(long_work::Pace& pace) {
+Study Solver::solve(const long_work::Progress& progress) {
+  long_work::Pace pace(progress);
   complete_samples(pace);
   Study study;
   if (task_.counts().search > 0) {

@@ -152,7 +152,7 @@ class Solver {
 
   std::size_t found_finished() const;
 
-  Study solve(long_work::Pace& pace);
+  Study solve(const long_work::Progress& progress);
 
   /// The study is on disk: the journal goes.
   void remove_journal() { journal_.remove(); }

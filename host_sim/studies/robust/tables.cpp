@@ -7,7 +7,7 @@
 
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/robust/report.hpp"
 
 namespace sonoglide::robust {

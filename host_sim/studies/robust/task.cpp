@@ -4,9 +4,8 @@
 
 #include <utility>
 
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/to_toml.hpp"
 #include "host_sim/studies/robust/spread.hpp"
 
 namespace sonoglide::robust {

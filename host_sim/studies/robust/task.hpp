@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/source.hpp"

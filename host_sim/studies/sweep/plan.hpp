@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/long_work/pace.hpp"
 #include "host_sim/long_work/work.hpp"
 #include "host_sim/scene/scene.hpp"

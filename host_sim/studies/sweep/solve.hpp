@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/long_work/kept_points.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/sweep/plan.hpp"

@@ -6,16 +6,14 @@
 #include <string_view>
 #include <utility>
 
-#include "host_sim/batch/run_dahl_plants.hpp"
 #include "host_sim/long_work/collection.hpp"
 #include "host_sim/long_work/journal.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/output/program.hpp"
-#include "host_sim/process/ending.hpp"
-#include "host_sim/scene_file/changes.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/runs/batch/run_dahl_plants.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/sweep/free_vibration.hpp"
 #include "host_sim/studies/sweep/report.hpp"
 #include "host_sim/studies/sweep/solve.hpp"
@@ -67,9 +65,7 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
   } else {
     folder.withdraw(picture_file);
   }
-  const process::Undisturbed now;
-  folder.commit();
-  then();
+  folder.commit(then);
 }
 
 /// Gives the record of every point, in their order.
@@ -77,9 +73,8 @@ using Records = std::function<void(const long_work::TakeRecord& take)>;
 
 /// Makes the files of a sweep's records.
 /// @param then  what belongs to it: no signal ends the program between
-MergeSummary merge(
-    const Plan& plan, const Records& records, const fs::path& out,
-    const std::function<void()>& then = [] {}) {
+MergeSummary merge(const Plan& plan, const Records& records, const fs::path& out,
+                   const std::function<void()>& then = {}) {
   MergeSummary summary{plan.grid().size(), 0, plan.grid().size() <= most_points};
   const auto for_each_row = [&](const auto& take) {
     records(long_work::rows_to<PointResult>([&](std::size_t point, PointResult row) {

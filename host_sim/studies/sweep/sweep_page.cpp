@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/sweep/free_vibration.hpp"
 #include "host_sim/studies/sweep/report.hpp"
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/page.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
 #include "host_sim/studies/work_precision/solvers.hpp"
@@ -118,5 +120,20 @@ const MeasuredSetting* find(const SolverComparison& comparison, const char* solv
 
 /// The solvers that have a row that did not fail, in the order of the rows.
 std::vector<const ComparedSolver*> measured_solvers(const SolverComparison& comparison);
+
+// What a comparison leaves behind.
+
+/// One line for each row under a heading line; what was not measured is `nan`.
+std::string to_csv(const SolverComparison& comparison);
+
+output::Page page(const scene::Scene& scene, const SolverComparison& comparison);
+
+/// Time for a carrier period against error, both axes logarithmic: one line for each solver through
+/// the errors that its settings can be relied on for (see Standing), small points at the errors
+/// that they happened to have.
+output::Sheet diagram(const scene::Scene& scene, const SolverComparison& comparison);
+
+/// work_precision.csv, work_precision.svg and report.html. @throws process::ProcessError
+output::StudyReport report(const scene::Scene& scene, const SolverComparison& comparison);
 
 }  // namespace sonoglide::work_precision

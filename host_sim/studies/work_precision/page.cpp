@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "host_sim/output/chart.hpp"
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
-#include "host_sim/studies/work_precision/report.hpp"
 
 namespace sonoglide::work_precision {
 namespace {

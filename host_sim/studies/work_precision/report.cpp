@@ -1,4 +1,3 @@
-#include "host_sim/studies/work_precision/report.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "measured_run.hpp"
 #include "tests/common/constants/pi.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "measured_run.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "measured_run.hpp"

@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/run_image.hpp"
-#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "tests/common/csv/csv.hpp"

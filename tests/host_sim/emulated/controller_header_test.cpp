@@ -7,9 +7,9 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/initialiser.hpp"
-#include "host_sim/experiment/experiment.hpp"
 
 namespace sonoglide::emulated::controller_header_test {
 namespace {

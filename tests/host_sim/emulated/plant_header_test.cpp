@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 
 namespace sonoglide::emulated::plant_header_test {
 namespace {

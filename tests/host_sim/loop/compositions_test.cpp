@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/plant_run.hpp"
 #include "host_sim/loop/run.hpp"

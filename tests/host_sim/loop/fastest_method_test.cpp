@@ -1,7 +1,7 @@
 /// What makes event_gauss the fastest, without a clock: how many carrier periods it takes in one step.
 /// The others are those of event_taylor. One step takes half of their time or less, and a third of it
 /// is lost where they follow: with 0.5 to 0.7 of the periods left over the two methods are even.
-#include "host_sim/scene/cores/fastest_method.hpp"
+#include "host_sim/scene/cores/solver_choice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/scene/cores/solves.hpp"
+#include "host_sim/scene/cores/solver_choice.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "tests/host_sim/loop/random/random_scene.hpp"

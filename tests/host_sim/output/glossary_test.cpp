@@ -1,4 +1,4 @@
-#include "host_sim/output/glossary.hpp"
+#include "host_sim/output/html.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene/bound.hpp"
 
 #include <fmt/format.h>

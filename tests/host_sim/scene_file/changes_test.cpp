@@ -1,4 +1,4 @@
-#include "host_sim/scene_file/changes.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,10 +10,9 @@
 #include <string>
 
 #include "every_scene.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/to_toml.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene_file::echo_test {

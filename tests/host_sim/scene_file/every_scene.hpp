@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene_file {

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene/solver_facts.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::scene_file::fastest_method_test {
 namespace {

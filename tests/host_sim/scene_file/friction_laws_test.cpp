@@ -1,8 +1,8 @@
 /// What every law in the list is held to, by its own description.
 
 #include "host_sim/scene/friction_laws.hpp"
-#include "host_sim/experiment/experiment.hpp"
-#include "host_sim/scene/cores/solves.hpp"
+#include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/scene/cores/solver_choice.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 
 #include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene/solver_methods.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/keys.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 
 namespace sonoglide::scene::friction_laws_test {
 namespace {

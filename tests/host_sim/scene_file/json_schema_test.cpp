@@ -20,10 +20,9 @@
 #include <vector>
 
 #include "every_scene.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
-#include "host_sim/scene_file/to_toml.hpp"
 #include "host_sim/scene_file/toml_text.hpp"
 
 namespace sonoglide::scene_file::json_schema_test {

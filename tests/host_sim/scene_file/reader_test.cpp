@@ -1,5 +1,5 @@
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// What every solver in the list is held to, by its own description.
 
 #include "host_sim/scene/solver_methods.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <string>
 
-#include "host_sim/scene_file/to_json.hpp"
+#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::scene::solver_methods_test {
 namespace {

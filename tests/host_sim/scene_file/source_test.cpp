@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 #include "scene_texts.hpp"
 
 namespace sonoglide::scene_file::source_test {

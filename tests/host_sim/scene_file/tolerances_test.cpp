@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::scene_file::tolerances_test {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/scene_file/to_json.hpp"
 #include "host_sim/scene_file/variant.hpp"
 #include "scene_texts.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "firmware/control/interface/names.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"

@@ -1,5 +1,5 @@
 #include "host_sim/studies/identify/friction/comparison.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 
 #include <fmt/format.h>
 

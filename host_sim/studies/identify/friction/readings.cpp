@@ -13,7 +13,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
-#include "host_sim/scene/unit_of.hpp"
+#include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/suggestion.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"

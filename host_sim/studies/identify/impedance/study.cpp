@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/identify/identification.hpp"

@@ -10,10 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/experiment/experiment.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
-#include "host_sim/studies/arithmetic/report.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::arithmetic::measured_test {

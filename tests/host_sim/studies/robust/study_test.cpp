@@ -38,8 +38,7 @@ class StudyTest : public testing::Test {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     threads == 0 ? 2 : threads);
     Solver solver(task, folder_, "test");
-    long_work::Pace pace(nobody_);
-    Study study = solver.solve(pace);
+    Study study = solver.solve({});
     if (threads != 0) {
       solver.remove_journal();
     }
@@ -48,7 +47,6 @@ class StudyTest : public testing::Test {
   fs::path journal() const { return folder_ / "robust.journal"; }
 
   fs::path folder_ = fs::path(testing::TempDir()) / ("robust_" + std::to_string(getpid()));
-  long_work::Progress nobody_;
 };
 
 TEST_F(StudyTest, RowsAreTheSameForAnyNumberOfThreads) {
@@ -72,8 +70,7 @@ TEST_F(StudyTest, GoesOnWhereItWasKilled) {
         std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length), '\n');
     Solver solver(task, folder_, "test");
     EXPECT_EQ(solver.found_finished(), kept == 0 ? 0U : static_cast<std::size_t>(kept) - 1);
-    long_work::Pace pace(nobody_);
-    EXPECT_EQ(tables(task, solver.solve(pace)), whole) << length;
+    EXPECT_EQ(tables(task, solver.solve({})), whole) << length;
   }
   const Task other({"s.toml", uncertain_step}, {"run.duration_s=2e-4"}, {12, 40, 4});
   EXPECT_THROW(Solver(other, folder_, "test"), long_work::ForeignJournal);

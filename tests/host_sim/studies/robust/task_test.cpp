@@ -1,5 +1,5 @@
 #include "host_sim/studies/robust/task.hpp"
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Points over lanes agree with the scalar solver within the tolerance asked for.
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/studies/sweep/solve.hpp"
 
 #include <gtest/gtest.h>

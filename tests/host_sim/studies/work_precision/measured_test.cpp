@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/experiment/experiment.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/studies/work_precision/comparison.hpp"
-#include "host_sim/studies/work_precision/report.hpp"
 #include "tests/common/csv/csv.hpp"
 
 namespace sonoglide::work_precision::measured_test {

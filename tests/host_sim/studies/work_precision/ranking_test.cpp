@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/studies/work_precision/report.hpp"
-
 namespace sonoglide::work_precision::ranking_test {
 namespace {
 
