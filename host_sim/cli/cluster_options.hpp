@@ -1,11 +1,9 @@
 /// The options by which several machines divide a command among themselves.
 #pragma once
 
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <string>

@@ -1,7 +1,6 @@
 /// What a long computation has finished, on disk, so that one that was killed can go on.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <mutex>

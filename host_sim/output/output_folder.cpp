@@ -1,7 +1,5 @@
 #include "host_sim/output/output_folder.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 #include <system_error>

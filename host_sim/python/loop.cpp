@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -31,36 +30,80 @@ const configure::Experiment& usable(const configure::Experiment& experiment) {
   return experiment;
 }
 
+namespace py = pybind11;
+
 /// A closed loop that is stepped from outside, in the shape of a task for reinforcement learning.
-class SteppedLoop {
+class Loop {
  public:
   /// @throws configure::ConfigurationError  the scene has no controller, or its carrier period changes
-  explicit SteppedLoop(const configure::Experiment& experiment);
+  explicit Loop(const configure::Experiment& experiment)
+      : experiment_(usable(experiment)),
+        period_s_(1.0 / experiment.plant.drive->frequency_Hz),
+        scene_periods_(loop::CarrierGrid(experiment.plant).count()),
+        schedule_(loop::target_schedule(experiment.plant, loop::CarrierGrid(experiment.plant))) {
+    reset(std::nullopt);
+  }
 
   /// To the beginning of the scene.
   /// @param seed  of the sensor's noise; absent: the scene's
-  void reset(std::optional<std::uint64_t> seed);
+  void reset(std::optional<std::uint64_t> seed) {
+    std::uint64_t& own = experiment_.plant.sensor.seed;
+    own = seed.value_or(own);
+    engine_ = std::make_unique<loop::SteppedScene>(experiment_, loop::Kind::loop);
+    periods_ = 0;
+    wanted_ratio_ = coming_ratio();
+  }
 
   /// One carrier period.
   /// @param target  friction ratio in (0, 1] that the controller is given; 0: as before, at the
   ///                beginning the scene's steps
   /// @throws loop::ComputationError, std::invalid_argument  the target is out of range
-  void step(double target);
+  void step(double target) {
+    if (!(target >= 0.0 && target <= 1.0)) {
+      throw std::invalid_argument(fmt::format(
+          "target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
+    }
+    loop::Inputs inputs;
+    inputs.target_friction_ratio = target;
+    wanted_ratio_ = coming_ratio();
+    engine_->advance(inputs);
+    ++periods_;
+  }
 
   const loop::SteppedScene& engine() const { return *engine_; }
   double time_s() const { return static_cast<double>(periods_) * period_s_; }
   /// Of the scene, for the period that was stepped last.
   double wanted_ratio() const { return wanted_ratio_; }
   /// Of the scene, for the period that comes next.
-  double coming_ratio() const;
+  double coming_ratio() const {
+    double wanted = schedule_.front().friction_ratio;
+    for (const loop::ScheduledTarget& each : schedule_) {
+      if (each.place <= periods_) {
+        wanted = each.friction_ratio;
+      }
+    }
+    return wanted;
+  }
   /// The scene's duration is over.
   bool over() const { return periods_ >= scene_periods_; }
   std::uint64_t seed() const { return experiment_.plant.sensor.seed; }
 
-  loop::Snapshot save() const;
-  /// @param state  of a loop of the same scene and seed
+  py::bytes save() const {
+    return pickled([this](loop::SnapshotWriter& state) {
+      state.put(periods_);
+      state.put(wanted_ratio_);
+      engine_->save(state);
+    });
+  }
+  /// @param pickled  by a loop of the same scene and seed
   /// @throws std::invalid_argument  it cannot be that
-  void restore(const loop::Snapshot& state);
+  void restore(const py::bytes& pickled) {
+    unpickle(pickled, [this](loop::SnapshotReader& state) {
+      state.get(periods_);
+      state.get(wanted_ratio_);
+      engine_->restore(state);
+    });
+  }
 
  private:
   configure::Experiment experiment_;
@@ -71,66 +114,6 @@ class SteppedLoop {
   std::uint64_t periods_ = 0;
   double wanted_ratio_ = 0.0;
 };
-
-SteppedLoop::SteppedLoop(const configure::Experiment& experiment)
-    : experiment_(usable(experiment)),
-      period_s_(1.0 / experiment.plant.drive->frequency_Hz),
-      scene_periods_(loop::CarrierGrid(experiment.plant).count()),
-      schedule_(loop::target_schedule(experiment.plant, loop::CarrierGrid(experiment.plant))) {
-  reset(std::nullopt);
-}
-
-void SteppedLoop::reset(std::optional<std::uint64_t> seed) {
-  std::uint64_t& own = experiment_.plant.sensor.seed;
-  own = seed.value_or(own);
-  engine_ = std::make_unique<loop::SteppedScene>(experiment_, loop::Kind::loop);
-  periods_ = 0;
-  wanted_ratio_ = coming_ratio();
-}
-
-void SteppedLoop::step(double target) {
-  if (!(target >= 0.0 && target <= 1.0)) {
-    throw std::invalid_argument(
-        fmt::format("target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
-  }
-  loop::Inputs inputs;
-  inputs.target_friction_ratio = target;
-  wanted_ratio_ = coming_ratio();
-  engine_->advance(inputs);
-  ++periods_;
-}
-
-double SteppedLoop::coming_ratio() const {
-  double wanted = schedule_.front().friction_ratio;
-  for (const loop::ScheduledTarget& each : schedule_) {
-    if (each.place <= periods_) {
-      wanted = each.friction_ratio;
-    }
-  }
-  return wanted;
-}
-
-loop::Snapshot SteppedLoop::save() const {
-  loop::SnapshotWriter writer;
-  writer.put(periods_);
-  writer.put(wanted_ratio_);
-  engine_->save(writer);
-  return writer.take();
-}
-
-void SteppedLoop::restore(const loop::Snapshot& state) {
-  loop::SnapshotReader reader(state);
-  reader.get(periods_);
-  reader.get(wanted_ratio_);
-  engine_->restore(reader);
-  if (!reader.over()) {
-    throw std::invalid_argument("the state that is to be restored is too long");
-  }
-}
-
-namespace py = pybind11;
-
-using Loop = SteppedLoop;
 
 constexpr std::array observation_names = {"friction_ratio",           "drive_force_amplitude_N",
                                           "sliding_velocity_m_per_s", "displacement_m",
@@ -181,8 +164,8 @@ void add_loop(py::module_& module) {
   py::class_<Loop> loop(module, "Loop");
   loop.def(py::init([](const Scene& scene) { return std::make_unique<Loop>(scene.experiment); }));
   loop.def_property_readonly("seed", &Loop::seed, "Of the sensor's noise.");
-  loop.def("save", [](const Loop& self) { return bytes_of(self.save()); });
-  loop.def("restore", [](Loop& self, const py::bytes& state) { self.restore(snapshot_of(state)); });
+  loop.def("save", &Loop::save);
+  loop.def("restore", &Loop::restore);
   loop.def("reset", &reset, py::arg("seed") = py::none(), py::arg("options") = py::none(),
            "reset(self, seed=None, options=None)\n--\n\n"
            "To the beginning. -> observation, info\n\n"

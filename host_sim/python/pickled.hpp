@@ -13,16 +13,23 @@
 
 namespace sonoglide::python {
 
-/// With a checksum, for a state that is damaged must not be gone on from.
-inline pybind11::bytes bytes_of(const loop::Snapshot& state) {
+/// The parts of a state, with a checksum, for one that is damaged must not be gone on from.
+/// @param put  writes them
+template <class Put>
+pybind11::bytes pickled(const Put& put) {
+  loop::SnapshotWriter writer;
+  put(writer);
+  const loop::Snapshot state = writer.take();
   std::string bytes(reinterpret_cast<const char*>(state.data()), state.size());
   const std::uint64_t sum = process::checksum(bytes);
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
   return bytes;
 }
 
-/// @throws std::invalid_argument  they are damaged
-inline loop::Snapshot snapshot_of(const pybind11::bytes& pickled) {
+/// @param get  reads the parts
+/// @throws std::invalid_argument  they are damaged, or not those
+template <class Get>
+void unpickle(const pybind11::bytes& pickled, const Get& get) {
   const std::string bytes = pickled;
   std::uint64_t sum = 0;
   if (bytes.size() < sizeof(sum)) {
@@ -35,7 +42,11 @@ inline loop::Snapshot snapshot_of(const pybind11::bytes& pickled) {
   }
   loop::Snapshot state(size);
   std::memcpy(state.data(), bytes.data(), size);
-  return state;
+  loop::SnapshotReader reader(state);
+  get(reader);
+  if (!reader.over()) {
+    throw std::invalid_argument("the state that is to be restored is too long");
+  }
 }
 
 }  // namespace sonoglide::python

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "hal/board.hpp"
@@ -40,7 +39,11 @@ class ControllerUnit {
  public:
   /// Begins with the first target of the scene.
   /// @throws configure::ConfigurationError  the scene has no controller, or one that answers with a bias
-  explicit ControllerUnit(configure::Experiment experiment);
+  explicit ControllerUnit(configure::Experiment experiment)
+      : experiment_(with_controller(std::move(experiment))),
+        port_(loop::make_control_port(scene(), *experiment_.design)) {
+    set_target(scene().controller->target_friction_ratio.front().friction_ratio);
+  }
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no
   /// vibration that part of the sample is left out, and the answer's frequency is 0.
@@ -58,15 +61,34 @@ class ControllerUnit {
 
   double target() const { return target_; }
   /// @throws std::invalid_argument  it is not in (0, 1]
-  void set_target(double friction_ratio);
+  void set_target(double friction_ratio) {
+    if (!(friction_ratio > 0.0 && friction_ratio <= 1.0)) {
+      throw std::invalid_argument(fmt::format(
+          "target is {}; allowed: a friction ratio above 0, at most 1", friction_ratio));
+    }
+    target_ = friction_ratio;
+    port_->set_target(friction_ratio);
+  }
 
   bool observes_vibration() const { return scene().sensor.vibration.has_value(); }
   const configure::ControlScales& scales() const { return experiment_.design->scales; }
 
-  loop::Snapshot save() const;
-  /// @param state  of a unit of the same scene
+  pybind11::bytes save() const {
+    return pickled([this](loop::SnapshotWriter& state) {
+      state.put(target_);
+      state.put(answer_);
+      port_->save(state);
+    });
+  }
+  /// @param pickled  by a unit of the same scene
   /// @throws std::invalid_argument  it cannot be that
-  void restore(const loop::Snapshot& state);
+  void restore(const pybind11::bytes& pickled) {
+    unpickle(pickled, [this](loop::SnapshotReader& state) {
+      state.get(target_);
+      state.get(answer_);
+      port_->restore(state);
+    });
+  }
 
  private:
   const scene::Scene& scene() const { return experiment_.plant; }
@@ -76,39 +98,6 @@ class ControllerUnit {
   double target_ = 0.0;
   hal::ResonantDrive answer_{};
 };
-
-ControllerUnit::ControllerUnit(configure::Experiment experiment)
-    : experiment_(with_controller(std::move(experiment))),
-      port_(loop::make_control_port(scene(), *experiment_.design)) {
-  set_target(scene().controller->target_friction_ratio.front().friction_ratio);
-}
-
-void ControllerUnit::set_target(double friction_ratio) {
-  if (!(friction_ratio > 0.0 && friction_ratio <= 1.0)) {
-    throw std::invalid_argument(
-        fmt::format("target is {}; allowed: a friction ratio above 0, at most 1", friction_ratio));
-  }
-  target_ = friction_ratio;
-  port_->set_target(friction_ratio);
-}
-
-loop::Snapshot ControllerUnit::save() const {
-  loop::SnapshotWriter writer;
-  writer.put(target_);
-  writer.put(answer_);
-  port_->save(writer);
-  return writer.take();
-}
-
-void ControllerUnit::restore(const loop::Snapshot& state) {
-  loop::SnapshotReader reader(state);
-  reader.get(target_);
-  reader.get(answer_);
-  port_->restore(reader);
-  if (!reader.over()) {
-    throw std::invalid_argument("the state that is to be restored is too long");
-  }
-}
 
 /// An object that computes without the interpreter's lock belongs to one thread meanwhile.
 /// Made and destroyed with the interpreter's lock held.
@@ -229,9 +218,8 @@ py::dict answer_of(const Unit& unit) {
 void add_unit(py::module_& module) {
   py::class_<Unit> unit(module, "Unit");
   unit.def(py::init([](const Scene& scene) { return Unit{ControllerUnit(scene.experiment)}; }));
-  unit.def("save", [](const Unit& self) { return bytes_of(self.controller.save()); });
-  unit.def("restore",
-           [](Unit& self, const py::bytes& state) { self.controller.restore(snapshot_of(state)); });
+  unit.def("save", [](const Unit& self) { return self.controller.save(); });
+  unit.def("restore", [](Unit& self, const py::bytes& state) { self.controller.restore(state); });
   unit.def(
       "step", &step_once, py::arg("force_code"), py::arg("velocity_code"),
       py::arg("in_phase_code") = py::none(), py::arg("quadrature_code") = py::none(), py::kw_only(),

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"

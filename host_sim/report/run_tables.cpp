@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "host_sim/output/number.hpp"

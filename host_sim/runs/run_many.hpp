@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <optional>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "host_sim/runs/batch/run_dahl_plants.hpp"

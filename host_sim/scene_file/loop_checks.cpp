@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <string>
-#include <string_view>
-
 #include "host_sim/scene/bound.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/checks.hpp"

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <functional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "host_sim/scene/names.hpp"

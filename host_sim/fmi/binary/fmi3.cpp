@@ -1,7 +1,6 @@
 #include "host_sim/fmi/binary/fmi3.hpp"
 
 #include <cstring>
-#include <memory>
 #include <string>
 
 #include "host_sim/fmi/binary/component.hpp"

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "host_sim/output/chart.hpp"

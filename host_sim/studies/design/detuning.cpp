@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/failure.hpp"

@@ -1,7 +1,6 @@
 #include "host_sim/studies/design/study.hpp"
 
 #include <cmath>
-#include <complex>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/studies/design/requirement.hpp"

@@ -1,6 +1,5 @@
 #include "host_sim/studies/design/study.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "host_sim/loop/failure.hpp"

@@ -8,7 +8,6 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/report/spectrum.hpp"

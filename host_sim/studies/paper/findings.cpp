@@ -9,7 +9,6 @@
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 

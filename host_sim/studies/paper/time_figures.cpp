@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/figures.hpp"
