@@ -18,7 +18,8 @@ struct FaultEntry {
 template <std::size_t Length>
 class FaultLog {
  public:
-  void add(const FaultEntry& entry) {
+  // Out of line: every kind of fault would bring its own copy.
+  [[gnu::noinline]] void add(const FaultEntry& entry) {
     words_.begin();
     words_.write(2 * next_, entry.fault);
     words_.write(2 * next_ + 1, entry.period);

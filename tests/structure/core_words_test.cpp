@@ -147,9 +147,10 @@ TEST(CoreWords, NoneIsForbidden) {
 }
 
 TEST(CoreWords, OnlyHeadersWithoutCodeOfTheirOwnAreIncluded) {
-  const std::vector<std::string> allowed = {"array",   "cfloat",      "cstddef",
-                                            "cstdint", "cstring",     "initializer_list",
-                                            "limits",  "type_traits", "utility"};
+  // Loads and stores of an atomic word are instructions.
+  const std::vector<std::string> allowed = {"array",       "atomic",  "cfloat",           "cstddef",
+                                            "cstdint",     "cstring", "initializer_list", "limits",
+                                            "type_traits", "utility"};
   for (const fs::path& file : core_files()) {
     for (const std::string& header : system_headers(code_of(text_of(file)))) {
       EXPECT_NE(std::find(allowed.begin(), allowed.end(), header), allowed.end())
