@@ -15,11 +15,12 @@ struct FaultEntry {
 };
 
 /// Keeps the last `Length` faults since reset. One side adds, the other may read at any moment.
-template <std::size_t Length>
+///
+/// @tparam Word  std::atomic, or PlainWord where both sides are one
+template <std::size_t Length, template <class> class Word>
 class FaultLog {
  public:
-  // Out of line: every kind of fault would bring its own copy.
-  [[gnu::noinline]] void add(const FaultEntry& entry) {
+  void add(const FaultEntry& entry) {
     words_.begin();
     words_.write(2 * next_, entry.fault);
     words_.write(2 * next_ + 1, entry.period);
@@ -64,7 +65,7 @@ class FaultLog {
 
   static std::size_t kept_of(std::uint32_t count) { return count < Length ? count : Length; }
 
-  SequenceLock<2 * Length + 2> words_;
+  SequenceLock<2 * Length + 2, Word> words_;
   std::size_t next_ = 0;     ///< of the side that adds alone
   std::uint32_t count_ = 0;  ///< likewise
 };

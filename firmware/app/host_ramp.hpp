@@ -1,6 +1,7 @@
 /// The end of a drive whose host fell silent.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 namespace sonoglide::app {
@@ -12,6 +13,9 @@ class HostRamp {
  public:
   /// The host asks for every start.
   static constexpr bool drives_from_power_on = false;
+  /// A service may read what the control side writes.
+  template <class T>
+  using Word = std::atomic<T>;
   static constexpr std::int32_t periods = 128;
 
   /// @param amplitude  code in force, 0 … 2^31 − 1.

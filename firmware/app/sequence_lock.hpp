@@ -8,6 +8,21 @@
 
 namespace sonoglide::app {
 
+/// A word that no other side reads at the same moment, in the place of an atomic one: what nobody asks for is
+/// then left out of an image.
+template <class T>
+class PlainWord {
+ public:
+  constexpr PlainWord() = default;
+  constexpr PlainWord(T value) : value_(value) {}  // NOLINT(google-explicit-constructor): as std's
+
+  T load(std::memory_order /*order*/) const { return value_; }
+  void store(T value, std::memory_order /*order*/) { value_ = value; }
+
+ private:
+  T value_{};
+};
+
 /// The writer, an interrupt or another thread, never waits. The reader reads again where the writer
 /// came in between; it must not interrupt the writer.
 ///

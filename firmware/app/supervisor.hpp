@@ -16,6 +16,8 @@ namespace sonoglide::app {
 /// Nobody can ask for a start, and no silence ends the drive.
 struct NoHost {
   static constexpr bool drives_from_power_on = true;
+  template <class T>
+  using Word = PlainWord<T>;
 
   static constexpr bool falling() { return false; }
   static constexpr std::int32_t next() { return 0; }
@@ -125,7 +127,7 @@ class Supervisor {
   const hal::Drive& drive() const { return drive_; }
   /// Served since reset; wraps, after 19.9 h at 60 kHz.
   std::uint32_t periods() const { return periods_; }
-  const FaultLog<LogLength>& faults() const { return log_; }
+  const FaultLog<LogLength, Host::template Word>& faults() const { return log_; }
 
  private:
   bool running() const {
@@ -146,7 +148,7 @@ class Supervisor {
   hal::Drive drive_{};
   std::uint32_t periods_ = 0;
   [[no_unique_address]] Host host_;
-  FaultLog<LogLength> log_;
+  FaultLog<LogLength, Host::template Word> log_;
 };
 
 }  // namespace sonoglide::app
