@@ -91,7 +91,7 @@ double half_steady_difference(const scene::Scene& scene, const ControlDesign& de
   constexpr double noise_deviations = 10.0;
   constexpr double anything = 1.0;
   const double told = part * design.friction_force +
-                      noise_deviations * scene.sensor.force_noise_N / design.scales.force_N;
+                      noise_deviations * scene.sensor.reading_noise_N() / design.scales.force_N;
   return readings > few ? anything : std::min(0.5 * told, anything);
 }
 
@@ -102,7 +102,7 @@ constexpr double usual_presliding_travels = 2.0 * least_presliding_travels;
 double readings_for_mean(const scene::Scene& scene, const NominalPlant& plant) {
   constexpr double error = 0.0025;
   constexpr double most = 16.0;
-  const double noise = scene.sensor.force_noise_N / (error * plant.friction_N);
+  const double noise = scene.sensor.reading_noise_N() / (error * plant.friction_N);
   return std::clamp(std::ceil(noise * noise), 1.0, most);
 }
 
@@ -271,7 +271,7 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
                     settling_periods(scene, plant, design, usual_presliding_travels));
   design.tracking_average_periods = static_cast<std::uint8_t>(readings);
   design.tracking_weight = mean_weight(readings);
-  const double noise_N = root_of_squares(scene.sensor.force_noise_N / numeric::sqrt(readings),
+  const double noise_N = root_of_squares(scene.sensor.reading_noise_N() / numeric::sqrt(readings),
                                          code_N(scene.sensor) / numeric::sqrt(12.0));
   design.tracking_deviation = root_of_squares(map_error, noise_N / plant.friction_N);
   design.tracking_certain =

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/control_design.hpp"
@@ -13,9 +14,8 @@ namespace sonoglide::configure {
 
 /// Time constant of the sensor's low-pass, in carrier periods.
 inline double filter_periods(const scene::Scene& scene, const ControlScales& scales) {
-  return scene.sensor.force_bandwidth_Hz
-             ? 1.0 / (numeric::two_pi * *scene.sensor.force_bandwidth_Hz * scales.carrier_period_s)
-             : 0.0;
+  const std::optional<double> low_pass_Hz = scene.sensor.low_pass_Hz();
+  return low_pass_Hz ? 1.0 / (numeric::two_pi * *low_pass_Hz * scales.carrier_period_s) : 0.0;
 }
 
 inline std::uint16_t whole_periods(double periods) {

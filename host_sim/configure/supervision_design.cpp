@@ -42,7 +42,7 @@ void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
   constexpr double noise_deviations = 4.0;
   constexpr double widest_band = 0.5;
   const double reading =
-      (noise_deviations * scene.sensor.force_noise_N + code_N(scene.sensor)) / plant.friction_N;
+      (noise_deviations * scene.sensor.reading_noise_N() + code_N(scene.sensor)) / plant.friction_N;
   design.settling_band = 0.5 * std::min(widest_band, scene.run.settling_band + reading);
   constexpr double holds = 4.0;
   constexpr double patience_margin = 40.0;

@@ -48,11 +48,13 @@ void require_ideal(const scene::Sensor& sensor) {
   require(!sensor.adc_bits, "sensor.adc_bits", ideal + "remove it");
   require(sensor.force_noise_N == 0.0, "sensor.force_noise_N", ideal + "allowed: 0");
   require(!sensor.force_bandwidth_Hz, "sensor.force_bandwidth_Hz", ideal + "remove it");
+  require(!sensor.samples_per_period, "sensor.samples_per_period", ideal + "remove it");
   require(sensor.delay_periods == 0, "sensor.delay_periods", ideal + "allowed: 0");
   require(sensor.force_offset_N == 0.0, "sensor.force_offset_N", ideal + "allowed: 0");
   require(sensor.force_gain == 1.0, "sensor.force_gain", ideal + "allowed: 1");
   require(sensor.velocity_offset_m_per_s == 0.0, "sensor.velocity_offset_m_per_s",
           ideal + "allowed: 0");
+  require(!sensor.velocity_bits, "sensor.velocity_bits", ideal + "remove it");
   require(sensor.velocity_gain == 1.0, "sensor.velocity_gain", ideal + "allowed: 1");
 }
 
@@ -279,6 +281,8 @@ std::string plant_header(const configure::Experiment& experiment, scene::Arithme
           "the plant of an image is driven by a cosine; allowed: \"cosine\"");
   require(scene.drive->interpolation == scene::Interpolation::step, "drive.interpolation",
           "the plant of an image holds the amplitude over a carrier period; allowed: \"step\"");
+  require(!scene.drive->bits, "drive.bits",
+          "the plant of an image takes the amplitude as it is; remove it");
   require(scene.drive->bias_limit_N == 0.0, "drive.bias_limit_N",
           "the plant of an image has no bias force; allowed: 0");
   require(

@@ -6,14 +6,16 @@
 
 namespace sonoglide::loop {
 
-Actuator::Actuator(int delay_periods, double full_scale_N, double bias_limit_N)
-    : full_scale_N_(full_scale_N),
-      bias_limit_N_(bias_limit_N),
-      queue_(static_cast<std::size_t>(delay_periods) + 1) {}
+Actuator::Actuator(const scene::Scene& scene)
+    : full_scale_N_(scene.max_drive_force_N()),
+      step_N_(scene.amplitude_step_N()),
+      bias_limit_N_(scene.drive->bias_limit_N),
+      queue_(static_cast<std::size_t>(scene.drive->delay_periods) + 1) {}
 
 void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequency,
                     std::int32_t bias) {
-  queue_[first_] = {numeric::from_code<double>(drive.amplitude) * full_scale_N_,
+  const double asked_N = numeric::from_code<double>(drive.amplitude) * full_scale_N_;
+  queue_[first_] = {scene::nearest_multiple(asked_N, step_N_),
                     numeric::from_code<double>(bias) * bias_limit_N_,
                     frequency,
                     target,

@@ -9,6 +9,7 @@
 #include "firmware/control/interface/drive_command.hpp"
 #include "hal/board.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
+#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
 
@@ -27,11 +28,9 @@ struct Command {
 /// Turns the codes of drive commands into newtons, each in force a latency later.
 class Actuator {
  public:
-  /// @param delay_periods  from the end of the period that a sample describes to the phase 0 at
-  ///                       which its answer acts
-  /// @param full_scale_N   amplitude of code 2^31
-  /// @param bias_limit_N   bias of code 2^31
-  Actuator(int delay_periods, double full_scale_N, double bias_limit_N = 0.0);
+  /// @param scene  says how late an answer acts, which amplitude and bias code 2^31 is, and how fine
+  ///               the amplitude is
+  explicit Actuator(const scene::Scene& scene);
 
   /// The answer to the period that has just passed; target: friction ratio it was picked for.
   void take(const hal::Drive& drive, double target) { take(drive, target, 0, 0); }
@@ -50,6 +49,7 @@ class Actuator {
   void take(const hal::Drive& drive, double target, std::int32_t frequency, std::int32_t bias);
 
   double full_scale_N_;
+  double step_N_;
   double bias_limit_N_;
   std::vector<Command> queue_;  ///< a ring
   std::size_t first_ = 0;       ///< in it

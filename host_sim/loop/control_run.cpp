@@ -42,7 +42,7 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       record_(record),
       observes_vibration_(scene.sensor.vibration),
       sensor_(scene.sensor, record.design.scales, vibration_gain(scene, record.design)),
-      actuator_(scene.drive->delay_periods, scene.max_drive_force_N(), scene.drive->bias_limit_N),
+      actuator_(scene),
       start_frequency_Hz_(scene.drive->frequency_Hz),
       clock_ratio_(scene.drive->frequency_Hz / record.design.carrier_Hz),
       nominal_friction_N_(record.design.friction_force * record.design.scales.force_N),
@@ -74,22 +74,22 @@ void ControlRun::label(Period& period) const {
   }
 }
 
-void ControlRun::step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
+void ControlRun::step(double time_s, const PeriodForce& force, double sliding_velocity_m_per_s,
                       std::complex<double> vibration_m_per_s, double mean_velocity_m_per_s) {
   follow_target();
-  learn(mean_force_N);
+  learn(force.mean_N);
   const bool biased = answers_with_bias();
   if (observes_vibration_ && biased) {
-    take(port_.exchange_biased(sensor_.sample(mean_force_N, sliding_velocity_m_per_s,
-                                              vibration_m_per_s, mean_velocity_m_per_s)),
+    take(port_.exchange_biased(sensor_.sample(force, sliding_velocity_m_per_s, vibration_m_per_s,
+                                              mean_velocity_m_per_s)),
          time_s);
   } else if (observes_vibration_) {
-    take(port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s)),
+    take(port_.exchange(sensor_.sample(force, sliding_velocity_m_per_s, vibration_m_per_s)),
          time_s);
   } else if (biased) {
-    take(port_.exchange_biased(sensor_.sample(mean_force_N, sliding_velocity_m_per_s)), time_s);
+    take(port_.exchange_biased(sensor_.sample(force, sliding_velocity_m_per_s)), time_s);
   } else {
-    take(port_.exchange(sensor_.sample(mean_force_N, sliding_velocity_m_per_s)), time_s);
+    take(port_.exchange(sensor_.sample(force, sliding_velocity_m_per_s)), time_s);
   }
 }
 

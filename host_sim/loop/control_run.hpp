@@ -55,7 +55,7 @@ class ControlRun {
   /// One control step, at the end of a carrier period.
   /// @param vibration_m_per_s      of the period, see Sensor; of use to a loop that observes it
   /// @param mean_velocity_m_per_s  likewise, of the vibration; of use to one that answers with a bias
-  void step(double time_s, double mean_force_N, double sliding_velocity_m_per_s,
+  void step(double time_s, const PeriodForce& force, double sliding_velocity_m_per_s,
             std::complex<double> vibration_m_per_s = {}, double mean_velocity_m_per_s = 0.0);
 
   /// Of the sample that comes next and of those after it, in place of the scene's steps.

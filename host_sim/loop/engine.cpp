@@ -86,8 +86,10 @@ void Engine::conclude(PlantPeriod& period) {
     sink->take(period);
   }
   if (control_ && period.whole) {
-    control_->step(period.end_s, period.mean_friction_force_N, period.end_velocity_m_per_s,
-                   period.vibration_m_per_s, period.mean_velocity_m_per_s);
+    const double mean_N = period.mean_friction_force_N;
+    control_->step(
+        period.end_s, plant_ ? PeriodForce(mean_N, plant_->force_samples_N()) : PeriodForce(mean_N),
+        period.end_velocity_m_per_s, period.vibration_m_per_s, period.mean_velocity_m_per_s);
   }
   clock_.next();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/failure.hpp"
@@ -50,6 +51,7 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const W
       energies_(watch.energies || scene.transducer.has_value()),
       sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
       drive_(scene, 0.0, 0.0, 0.0),
+      force_(scene),
       cuts_s_(cuts_of(scene, sliding_)),
       sampler_(watch.samples) {
   if (scene.transducer) {
@@ -69,16 +71,21 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   drive_ = PeriodDrive(scene_, drive_.end_N(), amplitude_N, bias_N);
   const bool has_corner =
       waveform_ == scene::Waveform::square || waveform_ == scene::Waveform::triangle;
-  const int pieces = has_corner ? 2 : drive_.parts();
+  const int parts = has_corner ? 2 : drive_.parts();
+  const int pieces = std::lcm(parts, force_.intervals());
   EnergyBalance total;
   meter_.begin_period();
+  force_.begin_period();
   double from_s = 0.0;
   for (int i = 0; i < pieces && from_s < last_cut_s; ++i) {
     const double cut_s = clock_.period_s() * (i + 1) / pieces;
     const bool last = i + 1 == pieces || !(cut_s < last_cut_s);
     const double until_s = last ? duration_s : cut_s;
-    piece(begin_s, from_s, until_s, last ? end_s : begin_s + cut_s, drive_.part(has_corner ? 0 : i),
-          total);
+    piece(begin_s, from_s, until_s, last ? end_s : begin_s + cut_s,
+          drive_.part(has_corner ? 0 : i * parts / pieces), total);
+    if ((i + 1) % (pieces / force_.intervals()) == 0) {
+      force_.take(total, plant_->state().friction_force_N);
+    }
     from_s = until_s;
   }
   result_.whole.append(total);
@@ -129,6 +136,7 @@ void PlantRun::save(SnapshotWriter& state) const {
   state.put(sliding_velocity_m_per_s_);
   state.put(drive_);
   state.put(next_cut_);
+  force_.save(state);
   plant_->save(state);
 }
 
@@ -136,6 +144,7 @@ void PlantRun::restore(SnapshotReader& state) {
   state.get(sliding_velocity_m_per_s_);
   state.get(drive_);
   state.get(next_cut_);
+  force_.restore(state);
   plant_->restore(state);
 }
 

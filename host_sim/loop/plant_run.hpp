@@ -8,6 +8,7 @@
 
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
+#include "host_sim/loop/force_sampler.hpp"
 #include "host_sim/loop/plant/energy.hpp"
 #include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
@@ -35,6 +36,9 @@ class PlantRun {
   /// @param bias_N  force that is constant over the period; 0 unless the scene has a bias limit
   /// @throws ComputationError
   EnergyBalance advance(double amplitude_N, double bias_N = 0.0);
+
+  /// Of the last call of advance().
+  const std::vector<double>& force_samples_N() const { return force_.samples_N(); }
 
   /// In the last call of advance().
   const PeriodDrive& drive() const { return drive_; }
@@ -70,7 +74,8 @@ class PlantRun {
   scene::Waveform waveform_;
   bool energies_;
   double sliding_velocity_m_per_s_;
-  PeriodDrive drive_;           ///< of the last period
+  PeriodDrive drive_;  ///< of the last period
+  ForceSampler force_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
   std::size_t next_cut_ = 0;
   Sampler sampler_;

@@ -1,5 +1,6 @@
 #include "host_sim/loop/sensor.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "firmware/numeric/float_elementary.hpp"
@@ -15,7 +16,6 @@ std::int64_t floored(double value) {
 }
 
 /// A two's-complement converter of the given width that spans ± full scale, rounding to nearest.
-template <class Conversion>
 Conversion convert(double value, double full_scale, int bits) {
   const auto levels = static_cast<double>(std::int64_t{1} << (bits - 1));
   const double scaled = value / full_scale * levels;
@@ -40,48 +40,66 @@ Sensor::Sensor(const scene::Sensor& sensor, const configure::ControlScales& scal
     : sensor_(sensor),
       scales_(scales),
       vibration_gain_(vibration_gain),
-      pipeline_N_(static_cast<std::size_t>(sensor.delay_periods), 0.0),
+      conversions_(sensor.samples_per_period.value_or(1)),
+      pipeline_N_(static_cast<std::size_t>(sensor.delay_periods * conversions_), 0.0),
       generator_(sensor.seed) {
-  if (sensor.force_bandwidth_Hz) {
-    const double periods = numeric::two_pi * *sensor.force_bandwidth_Hz * scales.carrier_period_s;
+  if (const std::optional<double> low_pass_Hz = sensor.low_pass_Hz()) {
+    const double periods = numeric::two_pi * *low_pass_Hz * scales.carrier_period_s;
     filter_decay_ = numeric::exp(-periods);
     filter_new_weight_ = 1.0 + numeric::expm1(-periods) / periods;
   }
 }
 
-hal::Sample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s) {
-  const double force_N = sensor_.force ? sensor_.force_gain * delayed(filtered(mean_force_N)) +
-                                             sensor_.force_offset_N + noise(sensor_.force_noise_N)
-                                       : 0.0;
+hal::Sample Sensor::sample(const PeriodForce& force, double sliding_velocity_m_per_s) {
+  const Conversion reading = this->reading(force);
   const double velocity_m_per_s =
       sensor_.velocity_gain * sliding_velocity_m_per_s + sensor_.velocity_offset_m_per_s;
-  const Conversion force =
-      convert<Conversion>(force_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
-  const Conversion velocity =
-      convert<Conversion>(velocity_m_per_s, scales_.velocity_m_per_s, ideal_bits);
-  return {force.code, velocity.code, force.at_rail, true, velocity.at_rail};
+  const Conversion velocity = convert(velocity_m_per_s, scales_.velocity_m_per_s,
+                                      sensor_.velocity_bits.value_or(ideal_bits));
+  return {reading.code, velocity.code, reading.at_rail, true, velocity.at_rail};
 }
 
-hal::VibrationSample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s,
+Conversion Sensor::reading(const PeriodForce& force) {
+  const double mean_N = force.samples_N.empty() ? filtered(force.mean_N) : 0.0;
+  std::int64_t sum = 0;
+  bool at_rail = false;
+  for (int i = 0; i < conversions_; ++i) {
+    const Conversion one =
+        converted(force.samples_N.empty() ? mean_N : force.samples_N[static_cast<std::size_t>(i)]);
+    sum += one.code;
+    at_rail = at_rail || one.at_rail;
+  }
+  return {static_cast<std::int32_t>(floored(static_cast<double>(sum) / conversions_ + 0.5)),
+          at_rail};
+}
+
+/// Delay, wiring, noise and converter.
+Conversion Sensor::converted(double force_N) {
+  const double seen_N = sensor_.force ? sensor_.force_gain * delayed(force_N) +
+                                            sensor_.force_offset_N + noise(sensor_.force_noise_N)
+                                      : 0.0;
+  return convert(seen_N, scales_.force_N, sensor_.adc_bits.value_or(ideal_bits));
+}
+
+hal::VibrationSample Sensor::sample(const PeriodForce& force, double sliding_velocity_m_per_s,
                                     std::complex<double> vibration_m_per_s) {
-  const hal::Sample sample = this->sample(mean_force_N, sliding_velocity_m_per_s);
+  const hal::Sample sample = this->sample(force, sliding_velocity_m_per_s);
   const Conversion in_phase = seen(vibration_m_per_s.real());
   const Conversion quadrature = seen(vibration_m_per_s.imag());
   return {sample, in_phase.code, quadrature.code, in_phase.at_rail || quadrature.at_rail, true};
 }
 
-hal::MotionSample Sensor::sample(double mean_force_N, double sliding_velocity_m_per_s,
+hal::MotionSample Sensor::sample(const PeriodForce& force, double sliding_velocity_m_per_s,
                                  std::complex<double> vibration_m_per_s,
                                  double mean_velocity_m_per_s) {
   const hal::VibrationSample sample =
-      this->sample(mean_force_N, sliding_velocity_m_per_s, vibration_m_per_s);
+      this->sample(force, sliding_velocity_m_per_s, vibration_m_per_s);
   return {sample, seen(mean_velocity_m_per_s).code};
 }
 
-Sensor::Conversion Sensor::seen(double velocity_m_per_s) {
-  return convert<Conversion>(
-      vibration_gain_ * velocity_m_per_s + noise(sensor_.vibration_noise_m_per_s),
-      scales_.velocity_m_per_s, sensor_.vibration_bits.value_or(ideal_bits));
+Conversion Sensor::seen(double velocity_m_per_s) {
+  return convert(vibration_gain_ * velocity_m_per_s + noise(sensor_.vibration_noise_m_per_s),
+                 scales_.velocity_m_per_s, sensor_.vibration_bits.value_or(ideal_bits));
 }
 
 void Sensor::save(SnapshotWriter& state) const {

@@ -19,7 +19,8 @@ bool suits_lanes(const scene::Scene& scene) {
          scene.drive->waveform == scene::Waveform::cosine && scene.drive->codes_per_period == 1 &&
          scene.drive->bias_limit_N == 0.0 && scene::is<scene::laws::Dahl>(scene.friction.law) &&
          scene.friction.limit_N() > 0.0 && scene.profile_key() == nullptr &&
-         scene.sliding.profile.size() == 1 && has_method_of_lanes(scene.solver);
+         scene.sliding.profile.size() == 1 && !scene.sensor.samples_per_period &&
+         has_method_of_lanes(scene.solver);
 }
 
 /// The lanes take steps of one share of their tolerance.

@@ -43,8 +43,7 @@ double Friction::largest_limit_N() const {
 }
 
 double Drive::nearest_frequency_Hz(double asked_Hz) const {
-  const double step_Hz = frequency_resolution_Hz;
-  return step_Hz > 0.0 ? step_Hz * std::max(1.0, std::round(asked_Hz / step_Hz)) : asked_Hz;
+  return std::max(frequency_resolution_Hz, nearest_multiple(asked_Hz, frequency_resolution_Hz));
 }
 
 double Scene::drive_force_N() const {
@@ -55,6 +54,10 @@ double Scene::drive_force_N() const {
 double Scene::max_drive_force_N() const {
   return drive->max_force_amplitude_N +
          (transducer ? transducer->force_N(drive->max_voltage_amplitude_V) : 0.0);
+}
+
+double Scene::amplitude_step_N() const {
+  return drive->bits ? std::ldexp(max_drive_force_N(), -*drive->bits) : 0.0;
 }
 
 VibrationMode Scene::vibration_mode() const {

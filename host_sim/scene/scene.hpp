@@ -1,6 +1,7 @@
 /// A validated scene: plain values in SI units, the unit in the name, every default filled in.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,11 @@
 #include "host_sim/scene/tolerance.hpp"
 
 namespace sonoglide::scene {
+
+/// The nearest multiple of a step; without a step (0) the value itself.
+inline double nearest_multiple(double value, double step) {
+  return step > 0.0 ? step * std::round(value / step) : value;
+}
 
 /// A row of a number that changes in time.
 struct TimedValue {
@@ -97,6 +103,7 @@ struct Drive {
   Waveform waveform = Waveform::cosine;
   /// Closed loop: from the end of a sampled period to where its answer acts.
   int delay_periods = 1;
+  std::optional<int> bits;  ///< closed loop: of the amplitude; absent, as fine as the arithmetic
   Interpolation interpolation = Interpolation::step;  ///< closed loop
   /// Linear: 1, a true ramp; n > 1, a staircase of n equal parts of the period, each with the
   /// amplitude that the ramp has in its middle.
@@ -213,16 +220,28 @@ struct Sensor {
   double force_full_scale_N = 0.0;  ///< the converter spans ± this
   double force_noise_N = 0.0;       ///< rms, each sample
   std::optional<double> force_bandwidth_Hz;
+  std::optional<int> samples_per_period;  ///< of the force; absent: its mean, taken once
+  std::optional<double> filter_Hz;        ///< of a low-pass before these samples
   int delay_periods = 0;
   double force_offset_N = 0.0;
   double force_gain = 1.0;  ///< reading over true; -1: wired backwards, 0: dead
   double velocity_offset_m_per_s = 0.0;
   double velocity_gain = 1.0;
+  std::optional<int> velocity_bits;  ///< the converter spans ± the base of velocity of the design
   std::uint64_t seed = 1;
   std::optional<VibrationSensor> vibration;
   std::optional<int> vibration_bits;
   double vibration_noise_m_per_s = 0.0;  ///< rms, each sample, in phase and in quadrature alike
   std::optional<double> vibration_full_scale_m_per_s;  ///< absent: what the design takes
+
+  /// Of the one low-pass that the force goes through.
+  std::optional<double> low_pass_Hz() const {
+    return force_bandwidth_Hz ? force_bandwidth_Hz : filter_Hz;
+  }
+  /// Of what is read once per carrier period, rms.
+  double reading_noise_N() const {
+    return force_noise_N / std::sqrt(samples_per_period.value_or(1));
+  }
 };
 
 /// What the controller believes divided by what is true.
@@ -265,6 +284,8 @@ struct Scene {
   double drive_force_N() const;
   /// The largest that its actuator gives in closed loop.
   double max_drive_force_N() const;
+  /// Between two amplitudes that it gives; 0: any.
+  double amplitude_step_N() const;
 
   /// Of an open loop `feedforward`.
   VibrationMode vibration_mode() const;

@@ -190,6 +190,10 @@ std::vector<Key> drive_keys() {
        "carrier periods from the end of a sampled period to the phase 0 at which the command that "
        "answers it acts; 0: a board that computes in no time",
        closed_loop},
+      {"bits", of_drive<&Drive::bits>, Integer{4, 31, "bits"}, Rule{"as fine as the arithmetic"},
+       "resolution of the actuator: the amplitude is the nearest of as many equal parts of its limit as a number "
+       "of so many bits tells apart",
+       closed_loop},
       {"interpolation",
        choice<scene::interpolations, &scene::Scene::drive, &Drive::interpolation>(),
        Word{words_of(scene::interpolations)},

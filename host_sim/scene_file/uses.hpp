@@ -120,6 +120,14 @@ inline const Uses robust_shaping = {
 inline const Uses force_sensor = {{"sensor.force = true",
                                    [](const Scene& scene) { return scene.sensor.force; },
                                    "with sensor.force = false", nullptr, "sensor"}};
+inline bool samples_force(const Scene& scene) {
+  return scene.sensor.samples_per_period.has_value();
+}
+inline const Uses sampled_force = {
+    {"sensor.samples_per_period", samples_force, "without sensor.samples_per_period"}};
+inline const Uses mean_force = {
+    {"", [](const Scene& scene) { return !samples_force(scene); },
+     "with sensor.samples_per_period, where filter_Hz takes its place"}};
 inline const Uses vibration_sensor = {
     {"sensor.vibration", [](const Scene& scene) { return scene.sensor.vibration.has_value(); }, "",
      [](const Scene& scene) {

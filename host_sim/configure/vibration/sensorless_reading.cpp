@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
@@ -15,8 +16,8 @@ namespace {
 
 ReadingChain chain_of(const scene::Sensor& sensor, double period_s) {
   ReadingChain chain;
-  if (sensor.force_bandwidth_Hz) {
-    const double periods = numeric::two_pi * *sensor.force_bandwidth_Hz * period_s;
+  if (const std::optional<double> low_pass_Hz = sensor.low_pass_Hz()) {
+    const double periods = numeric::two_pi * *low_pass_Hz * period_s;
     chain.fade = numeric::exp(-periods);
     chain.fresh = 1.0 + numeric::expm1(-periods) / periods;
     chain.old = 1.0 - chain.fade - chain.fresh;
@@ -27,7 +28,7 @@ ReadingChain chain_of(const scene::Sensor& sensor, double period_s) {
 /// Rms of a measured ratio.
 double reading_noise(const scene::Sensor& sensor, double friction_N) {
   const double rounding_N = code_N(sensor);
-  const double noise_N = sensor.force_noise_N;
+  const double noise_N = sensor.reading_noise_N();
   return numeric::sqrt(noise_N * noise_N + rounding_N * rounding_N / 12.0) / friction_N;
 }
 

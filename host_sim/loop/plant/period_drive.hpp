@@ -18,7 +18,7 @@ struct DrivePart {
 };
 
 /// The amplitude passes from that of the period before to its own at once, along a straight line, or
-/// along a staircase of n equal parts, each with the amplitude of the line in its middle: the first and
+/// along a staircase of n equal parts, each with the amplitude that the actuator has nearest to the line's in its middle: the first and
 /// the last of its n + 1 rises, at the ends of the period, are half as high as the others.
 class PeriodDrive {
  public:
@@ -27,7 +27,8 @@ class PeriodDrive {
       : before_N_(is_linear(scene) ? before_N : amplitude_N),
         after_N_(amplitude_N),
         bias_N_(bias_N),
-        parts_(before_N_ != after_N_ ? scene.drive->codes_per_period : 1) {}
+        parts_(before_N_ != after_N_ ? scene.drive->codes_per_period : 1),
+        step_N_(parts_ > 1 ? scene.amplitude_step_N() : 0.0) {}
 
   /// Amplitudes at the ends of the period, where they differ.
   double begin_N() const { return before_N_; }
@@ -61,7 +62,8 @@ class PeriodDrive {
     if (parts_ == 1) {
       return {before_N_, change_N() / numeric::two_pi, bias_N_};
     }
-    return {before_N_ + change_N() * ((index + 0.5) / parts_), 0.0, bias_N_};
+    const double line_N = before_N_ + change_N() * ((index + 0.5) / parts_);
+    return {scene::nearest_multiple(line_N, step_N_), 0.0, bias_N_};
   }
 
  private:
@@ -86,6 +88,7 @@ class PeriodDrive {
   double after_N_;
   double bias_N_;
   int parts_;
+  double step_N_;  ///< between amplitudes of parts; 0: any
 };
 
 }  // namespace sonoglide::loop

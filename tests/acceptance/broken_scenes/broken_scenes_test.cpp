@@ -537,6 +537,8 @@ const std::vector<BrokenScene> broken_scenes = {
     {"bias_of_a_loop_that_knows_no_mean_velocity", closed_loop, "max_force_amplitude_N = 1920.0",
      "max_force_amplitude_N = 1920\nbias_limit_N = 3",
      "13:1: drive.bias_limit_N: not used without controller.vibration = \"damped\"; remove it"},
+    {"open_loop_has_no_codes", open_loop, "[solver]", "bits = 12\n[solver]",
+     "14:1: drive.bits: not used in open loop, without a [controller] table; remove it"},
     {"open_loop_has_no_slew_limit", open_loop, "[solver]", "max_force_slew_N_per_s = 1e6\n[solver]",
      "14:1: drive.max_force_slew_N_per_s: not used in open loop, without a [controller] table; "
      "remove it"},

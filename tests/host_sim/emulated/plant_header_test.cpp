@@ -58,6 +58,12 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
             "sensor.force_gain" + ideal + "allowed: 1");
   EXPECT_EQ(refusal("target_step", {"sensor.velocity_offset_m_per_s=1e-3"}),
             "sensor.velocity_offset_m_per_s" + ideal + "allowed: 0");
+  EXPECT_EQ(refusal("target_step", {"sensor.velocity_bits=12"}),
+            "sensor.velocity_bits" + ideal + "remove it");
+  EXPECT_EQ(refusal("target_step", {"sensor.samples_per_period=8"}),
+            "sensor.samples_per_period" + ideal + "remove it");
+  EXPECT_EQ(refusal("target_step", {"drive.bits=12"}),
+            "drive.bits the plant of an image takes the amplitude as it is; remove it");
   EXPECT_EQ(refusal("target_step", {"sensor.velocity_gain=1.1"}),
             "sensor.velocity_gain" + ideal + "allowed: 1");
   EXPECT_EQ(refusal("target_step", {"run.duration_s=1e5", "run.record=[]"}),

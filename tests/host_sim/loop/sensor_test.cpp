@@ -234,6 +234,63 @@ TEST(SensorTest, TheVibrationHasItsOwnGainNoiseAndConverters) {
   EXPECT_NEAR(product, 0.0, 5e-6);
 }
 
+TEST(SensorTest, TheSlidingVelocityHasAConverterOfItsOwn) {
+  for (const int bits : {4, 12, 20}) {
+    scene::Sensor description;
+    description.velocity_bits = bits;
+    Sensor sensor(description, scales);
+    const double code = std::ldexp(1.0, 1 - bits);
+    for (const double value : range_of_values()) {
+      const hal::Sample sample = sensor.sample(0.0, value * full_speed_m_per_s);
+      const double clipped = std::clamp(value, -1.0, 1.0 - code);
+      EXPECT_NEAR(sample.sliding_velocity * unit, clipped, 0.5001 * code);
+      EXPECT_EQ(std::remainder(sample.sliding_velocity * unit, code), 0.0);
+    }
+  }
+}
+
+/// Each of the conversions is rounded and has its noise; a rail in one of them is one of the reading.
+TEST(SensorTest, TheReadingIsTheMeanOfItsConversions) {
+  scene::Sensor description;
+  description.adc_bits = 8;
+  description.samples_per_period = 4;
+  Sensor sensor(description, scales);
+  const double code = std::ldexp(1.0, -7);
+  const std::vector<double> codes = {3.2, 3.4, 3.6, -20.0};
+  std::vector<double> forces_N;
+  for (const double value : codes) {
+    forces_N.push_back(value * code * full_scale_N);
+  }
+  const hal::Sample sample = sensor.sample({0.0, forces_N}, 0.0);
+  EXPECT_EQ(sample.friction_force * unit, (3.0 + 3.0 + 4.0 - 20.0) / 4.0 * code);
+  EXPECT_FALSE(sample.force_at_rail);
+  forces_N[1] = 2.0 * full_scale_N;
+  EXPECT_TRUE(sensor.sample({0.0, forces_N}, 0.0).force_at_rail);
+
+  description.adc_bits.reset();
+  description.force_noise_N = 0.01 * full_scale_N;
+  EXPECT_DOUBLE_EQ(description.reading_noise_N(), 0.005 * full_scale_N);
+  Sensor noisy(description, scales);
+  double square = 0.0;
+  constexpr int count = 20'000;
+  for (int i = 0; i < count; ++i) {
+    square += std::pow(noisy.sample(0.0, 0.0).friction_force * unit, 2) / count;
+  }
+  EXPECT_NEAR(std::sqrt(square), 0.005, 0.00015);
+}
+
+TEST(SensorTest, ConversionsAreDelayedByWholePeriods) {
+  scene::Sensor description;
+  description.samples_per_period = 3;
+  description.delay_periods = 2;
+  Sensor sensor(description, scales);
+  for (int k = 0; k < 10; ++k) {
+    const double force_N = k * 0.05 * full_scale_N;
+    const hal::Sample sample = sensor.sample({0.0, {0.5 * force_N, force_N, 1.5 * force_N}}, 0.0);
+    EXPECT_NEAR(sample.friction_force * unit, std::max(0, k - 2) * 0.05, unit);
+  }
+}
+
 TEST(SensorTest, WithoutAForceSensorTheForceReadsZero) {
   scene::Sensor none;
   none.force = false;

@@ -100,6 +100,7 @@ TEST(ReaderTest, EveryKeyOfOpenLoop) {
 TEST(ReaderTest, DefaultsOfClosedLoop) {
   const scene::Scene scene = read_text(shortest_closed_loop, "s");
   EXPECT_FALSE(scene.drive->max_force_slew_N_per_s.has_value());
+  EXPECT_FALSE(scene.drive->bits.has_value());
   EXPECT_EQ(scene.drive->interpolation, scene::Interpolation::step);
   EXPECT_EQ(scene.drive->codes_per_period, 1);
   EXPECT_EQ(scene.drive->bias_limit_N, 0.0);
@@ -112,6 +113,9 @@ TEST(ReaderTest, DefaultsOfClosedLoop) {
   EXPECT_DOUBLE_EQ(scene.sensor.force_full_scale_N, 0.03924) << "twice the friction limit";
   EXPECT_EQ(scene.sensor.force_noise_N, 0.0);
   EXPECT_FALSE(scene.sensor.force_bandwidth_Hz.has_value());
+  EXPECT_FALSE(scene.sensor.samples_per_period.has_value());
+  EXPECT_FALSE(scene.sensor.filter_Hz.has_value());
+  EXPECT_FALSE(scene.sensor.velocity_bits.has_value());
   EXPECT_EQ(scene.sensor.delay_periods, 0);
   EXPECT_EQ(scene.sensor.force_offset_N, 0.0);
   EXPECT_EQ(scene.sensor.force_gain, 1.0);
@@ -168,6 +172,7 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.sliding.profile.front().velocity_m_per_s, -0.0267);
   EXPECT_EQ(scene.drive->max_force_amplitude_N, 1920.0);
   EXPECT_EQ(scene.drive->max_force_slew_N_per_s, 1e8);
+  EXPECT_EQ(scene.drive->bits, 12);
   EXPECT_EQ(scene.drive->interpolation, scene::Interpolation::linear);
   EXPECT_EQ(scene.drive->codes_per_period, 4);
   EXPECT_EQ(scene.drive->bias_limit_N, 0.0);
@@ -194,11 +199,23 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.sensor.force_gain, 0.9);
   EXPECT_EQ(scene.sensor.velocity_offset_m_per_s, 1e-3);
   EXPECT_EQ(scene.sensor.velocity_gain, -1.0);
+  EXPECT_EQ(scene.sensor.velocity_bits, 14);
   EXPECT_EQ(scene.sensor.seed, 9223372036854775807U);
   EXPECT_EQ(scene.model_error.mass, 0.9);
   EXPECT_EQ(scene.model_error.stiffness, 1.04);
   EXPECT_EQ(scene.model_error.coefficient, 1.3);
   EXPECT_EQ(scene.model_error.contact_stiffness, 1.5);
+}
+
+/// In place of force_bandwidth_Hz, which acts on the mean.
+TEST(ReaderTest, AForceThatIsSampledWithinThePeriod) {
+  const scene::Sensor sensor =
+      read_text(shortest_closed_loop, "s",
+                {"sensor.samples_per_period=16", "sensor.filter_Hz=60e3"})
+          .sensor;
+  EXPECT_EQ(sensor.samples_per_period, 16);
+  EXPECT_EQ(sensor.filter_Hz, 60e3);
+  EXPECT_EQ(sensor.low_pass_Hz(), 60e3);
 }
 
 TEST(ReaderTest, DeadAndReversedSensorsAreScenes) {

@@ -268,6 +268,7 @@ velocity_m_per_s = -0.0267
 frequency_Hz = 60e3
 max_force_amplitude_N = 1920
 max_force_slew_N_per_s = 1e8
+bits = 12
 interpolation = "linear"
 codes_per_period = 4
 [solver]
@@ -297,6 +298,7 @@ force_offset_N = -2e-3
 force_gain = 0.9
 velocity_offset_m_per_s = 1e-3
 velocity_gain = -1
+velocity_bits = 14
 seed = 9223372036854775807
 [model_error]
 mass = 0.9
