@@ -19,18 +19,8 @@ namespace sonoglide::unit {
 /// Its other end, a descriptor that is read and written.
 class PseudoTerminal {
  public:
-  PseudoTerminal() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
-    if (grantpt(number()) != 0 || unlockpt(number()) != 0) {
-      throw std::runtime_error("no pseudo-terminal is left");
-    }
-    device_ = ptsname(number());
-    // Open all the time: else the other end hangs up with whoever leaves.
-    held_ = process::Descriptor(open(device_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
-    termios raw{};
-    tcgetattr(held_.number(), &raw);
-    cfmakeraw(&raw);
-    tcsetattr(held_.number(), TCSANOW, &raw);
-  }
+  /// @throws std::runtime_error  the system has none left
+  PseudoTerminal();
 
   const std::string& device() const { return device_; }
   int number() const { return master_.number(); }
