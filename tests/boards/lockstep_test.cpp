@@ -97,7 +97,7 @@ void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   const configure::ControlDesign& design = record.design;
   SensedPlant plant(scene, design);
   hal::TraceHash hash;
-  loop::Actuator actuator(scene.drive->delay_periods, design.scales.drive_amplitude_N);
+  loop::Actuator actuator(scene);
   const std::size_t latency = static_cast<std::size_t>(scene.drive->delay_periods) + 1;
   ASSERT_GT(host.periods.size(), latency) << "no command to compare";
   for (std::size_t k = 0; k < host.periods.size(); ++k) {
