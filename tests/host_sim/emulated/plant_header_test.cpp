@@ -63,7 +63,7 @@ TEST(PlantHeader, NamesWhatIsAllowed) {
   EXPECT_EQ(refusal("target_step", {"sensor.samples_per_period=8"}),
             "sensor.samples_per_period" + ideal + "remove it");
   EXPECT_EQ(refusal("target_step", {"drive.bits=12"}),
-            "drive.bits the plant of an image takes the amplitude as it is; remove it");
+            "drive.bits: the plant of an image takes the amplitude as it is; remove it");
   EXPECT_EQ(refusal("target_step", {"sensor.velocity_gain=1.1"}),
             "sensor.velocity_gain" + ideal + "allowed: 1");
   EXPECT_EQ(refusal("target_step", {"run.duration_s=1e5", "run.record=[]"}),

@@ -233,6 +233,9 @@ duration_s = 2e-3
 [controller]
 arithmetic = "q31"
 target_friction_ratio = [[0, 1]]
+[sensor]
+samples_per_period = 8
+filter_Hz = 60e3
 )";
 
 /// Nothing that has a default.
