@@ -38,7 +38,8 @@ TYPED_TEST(BiasFeedbackTest, AnswersWithItsGainAndIsNamedAtItsLimit) {
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> velocity(-1.0, 1.0);
   std::uniform_real_distribution<double> exponent(-12.0, 12.0);
-  const long double largest = numeric::to_real(numeric::from_code<TypeParam>(INT32_MAX));
+  const auto largest =
+      static_cast<long double>(numeric::to_real(numeric::from_code<TypeParam>(INT32_MAX)));
   int inside = 0;
   int outside = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -56,14 +57,15 @@ TYPED_TEST(BiasFeedbackTest, AnswersWithItsGainAndIsNamedAtItsLimit) {
                         : sizeof(TypeParam) == 4             ? 0x1p-24
                                                              : 0x1p-53;
     const double bound = std::ldexp(unit, std::max(parts.exponent, 1));
+    const auto exact_bound = static_cast<long double>(bound);
     const double bias = numeric::to_real(command.bias);
     EXPECT_NEAR(bias, static_cast<double>(std::clamp(exact, -largest, largest)), bound)
         << gain_wanted << " " << numeric::to_real(v);
-    if (std::abs(exact) > 1.0L + bound) {
+    if (std::abs(exact) > 1.0L + exact_bound) {
       EXPECT_EQ(command.limit, Limit::bias);
       EXPECT_EQ(command.state, State::limited);
       ++outside;
-    } else if (std::abs(exact) < 1.0L - bound) {
+    } else if (std::abs(exact) < 1.0L - exact_bound) {
       EXPECT_EQ(command.limit, Limit::none);
       EXPECT_EQ(command.state, State::running);
       ++inside;
