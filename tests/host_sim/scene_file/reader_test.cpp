@@ -209,10 +209,9 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
 
 /// In place of force_bandwidth_Hz, which acts on the mean.
 TEST(ReaderTest, AForceThatIsSampledWithinThePeriod) {
-  const scene::Sensor sensor =
-      read_text(shortest_closed_loop, "s",
-                {"sensor.samples_per_period=16", "sensor.filter_Hz=60e3"})
-          .sensor;
+  const scene::Sensor sensor = read_text(shortest_closed_loop, "s",
+                                         {"sensor.samples_per_period=16", "sensor.filter_Hz=60e3"})
+                                   .sensor;
   EXPECT_EQ(sensor.samples_per_period, 16);
   EXPECT_EQ(sensor.filter_Hz, 60e3);
   EXPECT_EQ(sensor.low_pass_Hz(), 60e3);
