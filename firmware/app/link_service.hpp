@@ -59,9 +59,9 @@ class LinkService {
   static constexpr std::size_t most_waiting = 3;
 
   struct Received {
-    link::Frame frame;
-    std::uint32_t checksum;
-    std::uint32_t faults;  ///< since reset, when its first byte came
+    link::Frame frame{};
+    std::uint32_t checksum = 0;
+    std::uint32_t faults = 0;  ///< since reset, when its first byte came
   };
 
   // ---- Frames that come in ----

@@ -250,6 +250,7 @@ Console::Lines Console::refuse(const link::Refusal& refusal, std::size_t paramet
     }
     case link::Reason::unknown_parameter: {
       std::vector<std::string> names;
+      names.reserve(std::size(parameter_labels));
       for (const app::ParameterLabel& label : parameter_labels) {
         names.emplace_back(label.name);
       }

@@ -90,7 +90,10 @@ class Bench {
     const Complex z = plant_.advance(frequency_Hz(), acting_.amplitude);
     Complex read = sensor(z);
     if (nominal_.noise > 0.0) {
-      read += nominal_.noise * Complex(normal_(random_), normal_(random_));
+      // One after the other: arguments of a call have an order of the compiler's own.
+      const double quadrature = normal_(random_);
+      const double in_phase = normal_(random_);
+      read += nominal_.noise * Complex(in_phase, quadrature);
     }
     typename Vibration<S, Current>::Measurement measurement{};
     measurement.in_phase = reading(read.real());
