@@ -34,8 +34,8 @@ struct Conversion {
 
 /// Turns the true friction force of each carrier period into the sample that the board gets:
 /// first-order low-pass, delay, gain and offset, noise, converter; of a force that is sampled, the
-/// mean of what the converter reads, to 32 bits. The sliding velocity goes
-/// through its gain and offset, and a converter.
+/// mean of what the converter reads, to 32 bits. The sliding velocity goes through its gain and offset,
+/// and a converter.
 ///
 /// The vibration is seen as its velocity, or as the motional current over the believed force factor:
 /// with noise, in converters of its own. Without a force sensor the force reads 0.

@@ -18,8 +18,9 @@ struct DrivePart {
 };
 
 /// The amplitude passes from that of the period before to its own at once, along a straight line, or
-/// along a staircase of n equal parts, each with the amplitude that the actuator has nearest to the line's in its middle: the first and
-/// the last of its n + 1 rises, at the ends of the period, are half as high as the others.
+/// along a staircase of n equal parts, each with the amplitude of the line in its middle, or the nearest
+/// that the actuator gives. Of its n + 1 rises the first and the last, at the ends of the period, are
+/// half as high as the others.
 class PeriodDrive {
  public:
   /// @param before_N  amplitude of the period before; 0 before a run
