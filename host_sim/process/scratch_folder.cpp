@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view name_end = "XXXXXX";
 /// Of a folder that is not locked yet.
-constexpr std::string_view unlocked_begin = ".sonoglide_new-";
+constexpr std::string_view unnamed_begin = ".sonoglide_new-";
 constexpr const char* lock_file = ".lock";
 
 /// Whether a name is this beginning and six characters.
@@ -80,17 +80,21 @@ bool is_old(const fs::path& folder) {
          std::chrono::seconds(now - facts.st_ctime) > std::chrono::hours(1);
 }
 
+/// A folder that has its name had its lock before: without a lock file, its owner was removing it.
+bool is_orphan(const fs::path& folder, bool named) {
+  if (has_lock_file(folder)) {
+    return (named || is_old(folder)) && !has_owner(folder);
+  }
+  std::error_code unknown;
+  return (named || is_old(folder)) && fs::is_directory(fs::symlink_status(folder, unknown)) &&
+         fs::is_empty(folder, unknown);
+}
+
 /// What killed processes have left.
 void remove_orphans(const fs::path& parent) {
-  std::error_code unknown;
   for (const fs::path& path : entries_of(parent)) {
-    const bool locked = begins(path, ScratchFolder::name_begin);
-    if (!locked && !begins(path, unlocked_begin)) {
-      continue;
-    }
-    const bool orphan = has_lock_file(path) ? (locked || is_old(path)) && !has_owner(path)
-                                            : is_old(path) && fs::is_empty(path, unknown);
-    if (orphan) {
+    const bool named = begins(path, ScratchFolder::name_begin);
+    if ((named || begins(path, unnamed_begin)) && is_orphan(path, named)) {
       remove_folder(path);
     }
   }
@@ -121,7 +125,7 @@ ScratchError::ScratchError(const std::string& path, std::string reason)
 
 ScratchFolder::ScratchFolder(const fs::path& parent) {
   remove_orphans(parent);
-  std::string name = (parent / unlocked_begin).string() + std::string(name_end);
+  std::string name = (parent / unnamed_begin).string() + std::string(name_end);
   const Undisturbed now;
   if (mkdtemp(name.data()) == nullptr) {
     fail(name, errno);

@@ -28,8 +28,8 @@ class ScratchError : public ProcessError {
 /// removes it. A folder is one of these by its name and by a lock file in it; whether its owner lives
 /// is told by a lock on that file, which the system takes back at a process's end. A folder gets
 /// its name only when it is locked, so that no moment of an owner that lives looks like an orphan.
-/// What is killed before or after that leaves an empty folder, which is removed after an hour. Where the file system has
-/// no locks, nothing is cleaned up after the killed.
+/// What is killed before that leaves an empty folder of another name, which is removed after an
+/// hour. Where the file system has no locks, only empty folders are cleaned up after the killed.
 class ScratchFolder {
  public:
   /// What the names of these folders begin with; six letters and digits follow.
