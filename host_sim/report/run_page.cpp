@@ -59,7 +59,10 @@ output::Page run_page(const configure::Experiment& experiment, const loop::RunRe
   if (scene.sensor.vibration) {
     page.tables.push_back(vibration_table(findings));
   }
-  page.sections.push_back(course_section(scene, findings.course().curve()));
+  // One carrier period is no course: its ratio stands in the figures, its motion in the sections below.
+  if (const Course::Curve& course = findings.course().curve(); course.x().size() > 1) {
+    page.sections.push_back(course_section(scene, course));
+  }
   if (const VibrationCourse* vibration = findings.vibration()) {
     page.sections.push_back(vibration_section(scene, *vibration));
   }

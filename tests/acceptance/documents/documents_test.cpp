@@ -109,9 +109,10 @@ TEST(Documents, EveryCommandHasAnExampleInItsManual) {
   EXPECT_GT(found, 10);
 }
 
-TEST(Documents, TheTutorialShowsWhatItsCommandsPrint) {
+/// How many blocks are compared.
+int expect_commands_shown(const fs::path& document) {
   const BuiltRepository repository;
-  const std::vector<Block> blocks = blocks_of(source / "host_sim/scenes/README.md");
+  const std::vector<Block> blocks = blocks_of(document);
   int compared = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks[i].language != "sh") {
@@ -127,7 +128,15 @@ TEST(Documents, TheTutorialShowsWhatItsCommandsPrint) {
       EXPECT_EQ(outcome.exit_code, 0) << commands << outcome.out;
     }
   }
-  EXPECT_GT(compared, 8);
+  return compared;
+}
+
+TEST(Documents, TheTutorialShowsWhatItsCommandsPrint) {
+  EXPECT_GT(expect_commands_shown(source / "host_sim/scenes/README.md"), 8);
+}
+
+TEST(Documents, TheExplanationShowsWhatItsCommandsPrint) {
+  EXPECT_EQ(expect_commands_shown(source / "host_sim/scenes/why_vibration_lowers_friction.md"), 3);
 }
 
 /// Commands of at most some seconds, in this folder; the others have tests of their own.
