@@ -17,6 +17,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/report/run_report.hpp"
+#include "host_sim/report/self_excitation.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -54,6 +55,7 @@ void pil(const PilOptions& options) {
   const std::string header = header_for(input, experiment, board);
   if (!options.quiet) {
     print_design_notes(experiment.design);
+    print_notes(report::self_excitation_notes(scene));
     announce_long_work(loop::expected_steps(scene));
   }
   const std::filesystem::path out = output_folder(options.out, scene.name, "_" + options.board);

@@ -17,6 +17,7 @@
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/report/run_report.hpp"
+#include "host_sim/report/self_excitation.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -71,6 +72,7 @@ void run(const RunOptions& options) {
   const scene::Scene& scene = experiment.plant;
   if (!options.quiet) {
     print_design_notes(experiment.design);
+    print_notes(report::self_excitation_notes(scene));
     announce_long_work(loop::expected_steps(scene));
   }
   const bool written = !options.json || !options.out.empty();

@@ -166,7 +166,7 @@ py::tuple run(const Scene& scene) {
 
 void add_run(py::module_& module) {
   module.attr("states") = words_to(control::State::relearning);
-  module.attr("limits") = words_to(control::Limit::bias);
+  module.attr("limits") = words_to(control::Limit::self_excited);
   module.attr("settlings") = words_to(control::Settling::clamped);
   module.def("run", &run);
 }

@@ -7,6 +7,7 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/report/run_notes.hpp"
+#include "host_sim/report/self_excitation.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::report {
@@ -37,6 +38,7 @@ StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& 
       has_map_(scene::has_own_map(scene.friction.law)),
       observes_vibration_(scene.sensor.vibration),
       resonant_(scene.resonant()),
+      may_excite_itself_(may_excite_itself(scene) ? std::optional(scene) : std::nullopt),
       largest_current_A_(scene.drive->max_current_amplitude_A) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
@@ -171,6 +173,9 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   if (!settled && metrics.limit == control::Limit::none && !tally.fault) {
     name_unseen_limit(span, tally, metrics);
   }
+  if (!settled) {
+    name_self_excitation(span, metrics);
+  }
   name_passed_bound(tally, metrics);
   if (observes_vibration_) {
     metrics.vibration = vibration_metrics(span, tally);
@@ -191,6 +196,19 @@ void StepMeter::name_unseen_limit(const TargetSpan& span, const Tally& tally,
   metrics.controller_undecided = senses_force_ && !read_settled;
   if (!mismatch) {
     metrics.cause = true_cause(span, tally, off);
+  }
+}
+
+void StepMeter::name_self_excitation(const TargetSpan& span, StepMetrics& metrics) const {
+  const bool other_cause = metrics.limit != control::Limit::not_settling &&
+                           metrics.limit != control::Limit::mismatch &&
+                           metrics.limit != control::Limit::ratio_end;
+  if (!other_cause && may_excite_itself_ &&
+      excites_itself(*may_excite_itself_, span.quarter_s, metrics.drive_amplitude_N)) {
+    metrics.limit = control::Limit::self_excited;
+    metrics.cause = control::Settling::pending;
+    metrics.limit_seen_by_controller = false;
+    metrics.controller_undecided = false;
   }
 }
 

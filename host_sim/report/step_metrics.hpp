@@ -87,7 +87,9 @@ struct StepMetrics {
   /// never settles, and no fault has switched the drive off, the simulation names what only it can
   /// see: mismatch where the controller takes its reading for settled, else not_settling. It also
   /// names contact_lost, before any other, where a contact that vibrates normally opens in the steady
-  /// part, and current where nothing else is named and the true current passes its limit in the step.
+  /// part; self_excited in place of not_settling, mismatch and ratio_end, where the steady motion under
+  /// the mean drive repels; and current where nothing else is named and the true current passes its
+  /// limit in the step.
   control::Limit limit = control::Limit::none;
   bool limit_seen_by_controller = true;
   /// Of a limit that the simulation names: the controller senses the force and has not yet found out
@@ -160,6 +162,7 @@ class StepMeter final : public loop::PeriodSink {
   bool holds_blindly(const TargetSpan& span, const Tally& tally) const;
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
   void name_unseen_limit(const TargetSpan& span, const Tally& tally, StepMetrics& metrics) const;
+  void name_self_excitation(const TargetSpan& span, StepMetrics& metrics) const;
   void name_passed_bound(const Tally& tally, StepMetrics& metrics) const;
   control::Settling true_cause(const TargetSpan& span, const Tally& tally, bool off) const;
   static VibrationMetrics vibration_metrics(const TargetSpan& span, const Tally& tally);
@@ -172,6 +175,7 @@ class StepMeter final : public loop::PeriodSink {
   bool has_map_;
   bool observes_vibration_;
   bool resonant_;
+  std::optional<scene::Scene> may_excite_itself_;
   std::optional<double> largest_current_A_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;

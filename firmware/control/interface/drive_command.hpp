@@ -33,9 +33,11 @@ enum class Limit : std::uint8_t {
                      ///< stands at its end; the drive is held as below the speed floor
   contact_lost,      ///< a normal vibration opens the contact; only a simulation sees it
   bias,              ///< the bias force stands at an end of its range
+  self_excited,  ///< falling friction feeds an oscillation under the drive that the target takes;
+                 ///< only a simulation sees it
 };
 
-inline constexpr std::size_t limit_count = 14;
+inline constexpr std::size_t limit_count = 15;
 
 /// How the measured ratio stands to its target.
 enum class Settling : std::uint8_t {

@@ -51,6 +51,8 @@ constexpr const char* name(Limit limit) {
       return "contact_lost";
     case Limit::bias:
       return "bias";
+    case Limit::self_excited:
+      return "self_excited";
     case Limit::none:
       break;
   }

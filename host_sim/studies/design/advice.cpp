@@ -37,18 +37,18 @@ std::string reach(const DesignStudy& study, double ratio) {
              : std::string();
 }
 
-std::string nearest_text(const Requirement& point, const char* where) {
+std::string nearest_text(const steady::Requirement& point, const char* where) {
   return std::isfinite(point.reachable_ratio)
              ? fmt::format(" The nearest{} is {:.4f}", where, point.reachable_ratio)
              : std::string(" No nearer ratio was found");
 }
 
 /// Nothing where the ratio is within reach.
-std::string shortfall(const DesignStudy& study, const Requirement& point) {
+std::string shortfall(const DesignStudy& study, const steady::Requirement& point) {
   const std::string where =
       fmt::format("Ratio {:g} at {}", point.ratio, speed(point.sliding_m_per_s));
   switch (point.limit) {
-    case Obstacle::actuator: {
+    case steady::Obstacle::actuator: {
       const std::string slower = reach(study, point.ratio);
       return fmt::format("{} is beyond the drive: it needs {}, {:.3g} times the limit of {}.{}{}.",
                          where, force(point.motion.drive_force_N),
@@ -56,27 +56,29 @@ std::string shortfall(const DesignStudy& study, const Requirement& point) {
                          nearest_text(point, " at this speed"),
                          slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
     }
-    case Obstacle::amplitude:
+    case steady::Obstacle::amplitude:
       return fmt::format("{} cannot be reached: more vibration raises the friction again.{}.",
                          where, nearest_text(point, ""));
-    case Obstacle::contact_lost:
+    case steady::Obstacle::contact_lost:
       return fmt::format(
           "{} cannot be reached while the contact stays closed.{}; with more vibration it opens, "
           "and the mean normal force rises.",
           where, nearest_text(point, ""));
-    case Obstacle::no_orbit:
+    case steady::Obstacle::unstable:
+      return fmt::format("{} does not stay: {}.", where, point.reason);
+    case steady::Obstacle::no_orbit:
       return fmt::format("{}: no steady vibration was found. {}.", where, point.reason);
-    case Obstacle::undriven:
-    case Obstacle::none:
+    case steady::Obstacle::undriven:
+    case steady::Obstacle::none:
       break;
   }
   return {};
 }
 
 /// The point of the most force for a ratio that is within reach.
-Advice drive(const DesignStudy& study, const Requirement& point) {
+Advice drive(const DesignStudy& study, const steady::Requirement& point) {
   const std::string topic = fmt::format("Ratio {:g}", point.ratio);
-  if (point.limit == Obstacle::undriven) {
+  if (point.limit == steady::Obstacle::undriven) {
     return {topic, "Needs no drive: the contact has this ratio undriven."};
   }
   const std::string further = reach(study, point.ratio);
@@ -99,7 +101,7 @@ Advice closed_form(const DesignStudy& study, const std::vector<DesignPoint>& poi
   const DesignPoint& most = *std::max_element(
       points.begin(), points.end(),
       [](const DesignPoint& a, const DesignPoint& b) { return miss(a) < miss(b); });
-  const Requirement& worst = most.requirement;
+  const steady::Requirement& worst = most.requirement;
   if (miss(most) < 0.0) {
     return {"Closed form",
             "With its forces the plant does not settle on an orbit of the carrier period."};
@@ -114,13 +116,14 @@ Advice closed_form(const DesignStudy& study, const std::vector<DesignPoint>& poi
 }
 
 Advice power(const DesignStudy& study, const std::vector<DesignPoint>& points) {
-  const Requirement& point = std::max_element(points.begin(), points.end(),
-                                              [](const DesignPoint& a, const DesignPoint& b) {
-                                                return a.requirement.motion.drive_power_W <
-                                                       b.requirement.motion.drive_power_W;
-                                              })
-                                 ->requirement;
-  const SteadyMotion& motion = point.motion;
+  const steady::Requirement& point =
+      std::max_element(points.begin(), points.end(),
+                       [](const DesignPoint& a, const DesignPoint& b) {
+                         return a.requirement.motion.drive_power_W <
+                                b.requirement.motion.drive_power_W;
+                       })
+          ->requirement;
+  const steady::SteadyMotion& motion = point.motion;
   const auto watts = [](double value_W) { return output::quantity(value_W, "W"); };
   return {"Power",
           fmt::format(
@@ -239,7 +242,7 @@ Advice tuning_reach(const Detuning& detuning) {
                       band.high)};
 }
 
-Advice amplifier(const DesignStudy& study, const Requirement& point) {
+Advice amplifier(const DesignStudy& study, const steady::Requirement& point) {
   const scene::Scene& scene = study.task.scene;
   const loop::ElectricalFigures& figures = *point.motion.electrical;
   return {
@@ -258,7 +261,7 @@ Advice amplifier(const DesignStudy& study, const Requirement& point) {
 }
 
 /// What an inductor and a spring would save.
-Advice relief(const DesignStudy& study, const Requirement& point) {
+Advice relief(const DesignStudy& study, const steady::Requirement& point) {
   const loop::ElectricalFigures& figures = *point.motion.electrical;
   const double inductance_H = matching_inductance_H(study.task.scene, figures);
   std::string sentence =
@@ -303,9 +306,10 @@ std::vector<std::string> shortfalls(const DesignStudy& study) {
 std::vector<Advice> advice(const DesignStudy& study) {
   std::vector<Advice> all;
   for (const DesignPoint& point : study.points) {
-    const Requirement& each = point.requirement;
+    const steady::Requirement& each = point.requirement;
     const bool hardest = each.sliding_m_per_s == study.task.speeds.fastest_m_per_s;
-    if (hardest && (each.limit == Obstacle::none || each.limit == Obstacle::undriven)) {
+    if (hardest &&
+        (each.limit == steady::Obstacle::none || each.limit == steady::Obstacle::undriven)) {
       all.push_back(drive(study, each));
     }
   }
@@ -315,13 +319,16 @@ std::vector<Advice> advice(const DesignStudy& study) {
     all.push_back(power(study, points));
     all.push_back(accuracy(study, points));
   }
-  if (const Requirement* most = most_electrical(study)) {
+  if (const steady::Requirement* most = most_electrical(study)) {
     all.push_back(amplifier(study, *most));
     all.push_back(relief(study, *most));
   }
   if (study.natural_mode) {
     const std::vector<Advice> mode = natural_mode_advice(*study.natural_mode);
     all.insert(all.end(), mode.begin(), mode.end());
+  }
+  for (const SelfExcitation& each : study.self_excitation) {
+    all.push_back(self_excitation_advice(each));
   }
   if (!study.detunings.empty() && !study.task.at_resonance) {
     const Detuning& lowest = study.detunings.front();

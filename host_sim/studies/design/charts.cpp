@@ -22,12 +22,12 @@ template <class Figure>
 output::Chart over_speed(const DesignStudy& study, const char* title, const char* y_label,
                          const Figure& figure) {
   output::Chart chart{title, "", {"Sliding velocity [m/s]", true}, {y_label, true}, {}, {}};
-  for (const Requirement& point : study.curves.front().requirements) {
+  for (const steady::Requirement& point : study.curves.front().requirements) {
     chart.x.push_back(point.sliding_m_per_s);
   }
   for (const RatioRequirements& each : study.curves) {
     output::Curve& curve = chart.curves.emplace_back(ratio_curve(each.ratio));
-    for (const Requirement& point : each.requirements) {
+    for (const steady::Requirement& point : each.requirements) {
       curve.y.push_back(figure(point));
     }
   }
@@ -47,7 +47,7 @@ output::Chart over_tuning(const DesignStudy& study, const char* title, const cha
         // Nothing is known at resonance itself.
         is_above = true;
         curve.x.push_back(1.0);
-        curve.y.push_back(undefined);
+        curve.y.push_back(steady::undefined);
       }
       curve.x.push_back(point.tuning);
       curve.y.push_back(point.*figure);
@@ -74,17 +74,17 @@ std::vector<DesignPoint> fastest_points(const DesignStudy& study) {
 std::vector<output::Chart> requirement_charts(const DesignStudy& study) {
   output::Chart force =
       over_speed(study, "Required drive force", "Force amplitude [N]",
-                 [](const Requirement& each) { return each.motion.drive_force_N; });
+                 [](const steady::Requirement& each) { return each.motion.drive_force_N; });
   output::Chart power =
       over_speed(study, "Power that the drive puts in", "Power [W]",
-                 [](const Requirement& each) { return each.motion.drive_power_W; });
+                 [](const steady::Requirement& each) { return each.motion.drive_power_W; });
   output::Curve points{"asked for", {}, output::Line::dots};
   for (const DesignPoint& point : study.points) {
     points.x.push_back(point.requirement.sliding_m_per_s);
     points.y.push_back(point.requirement.motion.drive_force_N);
   }
   output::Curve undriven{"friction, undriven", {}};
-  for (const Requirement& point : study.curves.front().requirements) {
+  for (const steady::Requirement& point : study.curves.front().requirements) {
     undriven.y.push_back(point.motion.undriven_friction_power_W);
   }
   force.tiles = {above(study.task.scene.max_drive_force_N(), "more than the drive has")};

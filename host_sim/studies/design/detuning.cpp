@@ -5,7 +5,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/root.hpp"
+#include "host_sim/steady/root.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -37,12 +37,13 @@ std::vector<double> tunings(double own) {
 /// One ratio at one speed, on any spring.
 class Retuning {
  public:
-  Retuning(const scene::Scene& scene, const Requirement& requirement)
+  Retuning(const scene::Scene& scene, const steady::Requirement& requirement)
       : scene_(scene), requirement_(requirement) {}
 
   /// NaN where none is found.
   double force_N(double tuning) const {
-    return require_ratio(retuned(scene_, tuning), requirement_.sliding_m_per_s, requirement_.ratio)
+    return steady::require_ratio(retuned(scene_, tuning), requirement_.sliding_m_per_s,
+                                 requirement_.ratio)
         .motion.drive_force_N;
   }
 
@@ -55,15 +56,15 @@ class Retuning {
       };
       return std::max(by(parameter_change), by(-parameter_change));
     } catch (const loop::ComputationError&) {
-      return undefined;
+      return steady::undefined;
     }
   }
 
   double ratio(double tuning, double force_N) const {
     try {
-      return friction_ratio(under(tuning, force_N));
+      return steady::friction_ratio(under(tuning, force_N));
     } catch (const loop::ComputationError&) {
-      return undefined;
+      return steady::undefined;
     }
   }
 
@@ -89,7 +90,7 @@ class Retuning {
 
  private:
   scene::Scene under(double tuning, double force_N) const {
-    return steady_scene(retuned(scene_, tuning), requirement_.sliding_m_per_s, force_N);
+    return steady::steady_scene(retuned(scene_, tuning), requirement_.sliding_m_per_s, force_N);
   }
 
   /// The tuning farthest from resonance at which a figure is positive, looked for at distances
@@ -100,14 +101,14 @@ class Retuning {
     const double far_end = side < 0.0 ? smallest_tuning : largest_tuning;
     const double factor = std::pow(nearest / std::abs(far_end - 1.0), 1.0 / steps);
     double last = far_end;
-    double last_figure = undefined;
+    double last_figure = steady::undefined;
     for (int i = 0; i <= steps; ++i) {
       const double tuning = i == 0 ? far_end : 1.0 + (far_end - 1.0) * std::pow(factor, i);
       const double here = figure(tuning);
       if (here > 0.0) {
-        const double edge =
-            last_figure < 0.0 ? root_between(figure, std::min(tuning, last), std::max(tuning, last))
-                              : undefined;
+        const double edge = last_figure < 0.0 ? steady::root_between(figure, std::min(tuning, last),
+                                                                     std::max(tuning, last))
+                                              : steady::undefined;
         return std::isnan(edge) ? tuning : edge;
       }
       last = tuning;
@@ -117,7 +118,7 @@ class Retuning {
   }
 
   const scene::Scene& scene_;
-  const Requirement& requirement_;
+  const steady::Requirement& requirement_;
 };
 
 std::optional<TuningBand> reachable_band(const Retuning& retuning) {
@@ -144,7 +145,7 @@ scene::Scene retuned(scene::Scene scene, double tuning) {
   return scene;
 }
 
-Detuning detune(const scene::Scene& scene, const Requirement& requirement) {
+Detuning detune(const scene::Scene& scene, const steady::Requirement& requirement) {
   const Retuning retuning(scene, requirement);
   Detuning detuning{requirement.sliding_m_per_s,
                     requirement.ratio,
@@ -152,7 +153,7 @@ Detuning detune(const scene::Scene& scene, const Requirement& requirement) {
                     reachable_band(retuning),
                     sensitive_band(retuning),
                     retuning.change(tuning(scene), requirement.motion.drive_force_N),
-                    undefined};
+                    steady::undefined};
   if (detuning.sensitive) {
     detuning.force_at_sensitive_low_N = retuning.force_N(detuning.sensitive->low);
   }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -34,22 +34,22 @@ double parallel_resonance_Hz(const scene::Scene& scene) {
 
 double clamped_power_VA(const scene::Scene& scene, double voltage_V) {
   return 0.5 * voltage_V * voltage_V *
-         std::abs(loop::clamped_admittance_S(*scene.transducer, carrier_rad_per_s(scene)));
+         std::abs(loop::clamped_admittance_S(*scene.transducer, steady::carrier_rad_per_s(scene)));
 }
 
 double matching_inductance_H(const scene::Scene& scene, const loop::ElectricalFigures& figures) {
   return figures.reactive_power_var < 0.0
              ? -figures.voltage_peak_V * figures.voltage_peak_V /
-                   (2.0 * carrier_rad_per_s(scene) * figures.reactive_power_var)
-             : undefined;
+                   (2.0 * steady::carrier_rad_per_s(scene) * figures.reactive_power_var)
+             : steady::undefined;
 }
 
-ResonantSpring on_resonance(const scene::Scene& scene, const Requirement& requirement) {
+ResonantSpring on_resonance(const scene::Scene& scene, const steady::Requirement& requirement) {
   scene::Scene resonant = scene;
-  const double omega = carrier_rad_per_s(scene);
+  const double omega = steady::carrier_rad_per_s(scene);
   resonant.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
   return {resonant.plant.stiffness_N_per_m,
-          require_ratio(resonant, requirement.sliding_m_per_s, requirement.ratio)};
+          steady::require_ratio(resonant, requirement.sliding_m_per_s, requirement.ratio)};
 }
 
 }  // namespace sonoglide::design

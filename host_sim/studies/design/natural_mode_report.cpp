@@ -179,7 +179,7 @@ output::Chart carrier_chart(const NaturalModeStudy& mode) {
   output::Curve never{"never", {}};
   for (const CarrierPoint& point : mode.carriers) {
     const auto count = [&](std::size_t plants) {
-      return point.reachable ? static_cast<double>(plants) : undefined;
+      return point.reachable ? static_cast<double>(plants) : steady::undefined;
     };
     chart.x.push_back(point.frequency_Hz);
     settled.y.push_back(count(point.plants.settled));

@@ -11,8 +11,8 @@
 namespace sonoglide::design {
 namespace {
 
-std::string drive_line(const Requirement& point) {
-  const SteadyMotion& motion = point.motion;
+std::string drive_line(const steady::Requirement& point) {
+  const steady::SteadyMotion& motion = point.motion;
   return fmt::format("{:>10} {:>6.4g} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9}  {}\n",
                      output::quantity(point.sliding_m_per_s, "m/s"), point.ratio,
                      output::quantity(motion.drive_force_N, "N"),
@@ -102,7 +102,7 @@ output::Table drive_table(const DesignStudy& study) {
                        "Ratio within reach", "Closed form", "It misses by"},
                       {}};
   for (const DesignPoint& point : study.points) {
-    const Requirement& each = point.requirement;
+    const steady::Requirement& each = point.requirement;
     table.rows.push_back({output::quantity(each.sliding_m_per_s, "m/s"),
                           output::formatted(each.ratio, "{:.4g}"),
                           output::quantity(each.motion.drive_force_N, "N"),
@@ -121,7 +121,7 @@ output::Table power_table(const std::vector<DesignPoint>& points) {
                        "Fe v/2, to and fro"},
                       {}};
   for (const DesignPoint& point : points) {
-    const SteadyMotion& motion = point.requirement.motion;
+    const steady::SteadyMotion& motion = point.requirement.motion;
     table.rows.push_back({output::quantity(point.requirement.sliding_m_per_s, "m/s"),
                           output::formatted(point.requirement.ratio, "{:.4g}"),
                           output::quantity(motion.drive_power_W, "W"),
@@ -261,6 +261,9 @@ output::Page page(const DesignStudy& study) {
   }
   if (study.natural_mode) {
     page.sections.push_back(natural_mode_section(study, *study.natural_mode));
+  }
+  if (!study.self_excitation.empty()) {
+    page.sections.push_back(self_excitation_section(study));
   }
   if (!study.detunings.empty()) {
     page.sections.push_back(resonance_section(study));

@@ -52,6 +52,11 @@ std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode);
 output::Section natural_mode_section(const DesignStudy& study, const NaturalModeStudy& mode);
 nlohmann::ordered_json to_json(const NaturalModeStudy& mode);
 
+/// Whether steady sliding feeds an oscillation, and what the drive does to it; of friction that falls.
+Advice self_excitation_advice(const SelfExcitation& found);
+output::Section self_excitation_section(const DesignStudy& study);
+nlohmann::ordered_json to_json(const SelfExcitation& found);
+
 output::Page page(const DesignStudy& study);
 
 /// report.html, design.json, design.csv and detuning.csv.

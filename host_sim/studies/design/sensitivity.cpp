@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -12,7 +12,7 @@ double ratio_or_none(const scene::Scene& scene, const SceneParameter& parameter,
   try {
     return ratio_with(scene, parameter, factor);
   } catch (const loop::ComputationError&) {
-    return undefined;
+    return steady::undefined;
   }
 }
 
@@ -38,7 +38,7 @@ Sensitivity sensitivity(const scene::Scene& scene, const SceneParameter& paramet
 double ratio_with(scene::Scene steady_scene, const SceneParameter& parameter, double factor) {
   parameter.in(steady_scene) *= factor;
   steady_scene.run.duration_s = 1.0 / steady_scene.drive->frequency_Hz;
-  return friction_ratio(steady_scene);
+  return steady::friction_ratio(steady_scene);
 }
 
 double Sensitivity::largest_change() const {
@@ -80,7 +80,7 @@ std::vector<SceneParameter> parameters_of(const scene::Scene& steady_scene) {
 }
 
 std::vector<Sensitivity> sensitivities(const scene::Scene& steady_scene) {
-  const double ratio = friction_ratio(steady_scene);
+  const double ratio = steady::friction_ratio(steady_scene);
   std::vector<Sensitivity> all;
   for (const SceneParameter& parameter : parameters_of(steady_scene)) {
     all.push_back(sensitivity(steady_scene, parameter, ratio));

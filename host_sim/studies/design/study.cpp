@@ -34,45 +34,46 @@ std::vector<double> curve_speeds_m_per_s(const SpeedRange& speeds) {
   return all;
 }
 
-bool has_motion(const Requirement& requirement) {
-  return requirement.limit == Obstacle::none || requirement.limit == Obstacle::actuator;
+bool has_motion(const steady::Requirement& requirement) {
+  return requirement.limit == steady::Obstacle::none ||
+         requirement.limit == steady::Obstacle::actuator;
 }
 
 RatioRequirements ratio_curve(const Task& task, double ratio,
                               const std::vector<double>& speeds_m_per_s) {
-  RatioRequirements curve{ratio, std::vector<Requirement>(speeds_m_per_s.size()),
-                          fastest_sliding_m_per_s(task.scene, ratio)};
+  RatioRequirements curve{ratio, std::vector<steady::Requirement>(speeds_m_per_s.size()),
+                          steady::fastest_sliding_m_per_s(task.scene, ratio)};
   tbb::parallel_for(std::size_t{0}, speeds_m_per_s.size(), [&](std::size_t i) {
-    curve.requirements[i] = require_ratio(task.scene, speeds_m_per_s[i], ratio);
+    curve.requirements[i] = steady::require_ratio(task.scene, speeds_m_per_s[i], ratio);
   });
   return curve;
 }
 
-DesignPoint design_point(const Task& task, const Requirement& requirement) {
+DesignPoint design_point(const Task& task, const steady::Requirement& requirement) {
   DesignPoint point{requirement, {}};
   if (has_motion(requirement)) {
-    point.sensitivities = sensitivities(
-        steady_scene(task.scene, requirement.sliding_m_per_s, requirement.motion.drive_force_N));
+    point.sensitivities = sensitivities(steady::steady_scene(
+        task.scene, requirement.sliding_m_per_s, requirement.motion.drive_force_N));
   }
   return point;
 }
 
 /// Of every curve the requirement at a speed that it was computed for.
-std::vector<Requirement> requirements_at(const std::vector<RatioRequirements>& curves,
-                                         double sliding_m_per_s) {
-  std::vector<Requirement> all;
+std::vector<steady::Requirement> requirements_at(const std::vector<RatioRequirements>& curves,
+                                                 double sliding_m_per_s) {
+  std::vector<steady::Requirement> all;
   all.reserve(curves.size());
   for (const RatioRequirements& curve : curves) {
     all.push_back(*std::find_if(
         curve.requirements.begin(), curve.requirements.end(),
-        [&](const Requirement& each) { return each.sliding_m_per_s == sliding_m_per_s; }));
+        [&](const steady::Requirement& each) { return each.sliding_m_per_s == sliding_m_per_s; }));
   }
   return all;
 }
 
 std::vector<DesignPoint> design_points(const Task& task,
                                        const std::vector<RatioRequirements>& curves) {
-  std::vector<Requirement> wanted = requirements_at(curves, task.speeds.slowest_m_per_s);
+  std::vector<steady::Requirement> wanted = requirements_at(curves, task.speeds.slowest_m_per_s);
   if (!is_single(task.speeds)) {
     const auto fastest = requirements_at(curves, task.speeds.fastest_m_per_s);
     wanted.insert(wanted.end(), fastest.begin(), fastest.end());
@@ -84,9 +85,9 @@ std::vector<DesignPoint> design_points(const Task& task,
 }
 
 std::vector<Detuning> detunings(const Task& task, const std::vector<RatioRequirements>& curves) {
-  std::vector<Requirement> wanted = requirements_at(curves, task.speeds.fastest_m_per_s);
+  std::vector<steady::Requirement> wanted = requirements_at(curves, task.speeds.fastest_m_per_s);
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(),
-                              [](const Requirement& each) { return !has_motion(each); }),
+                              [](const steady::Requirement& each) { return !has_motion(each); }),
                wanted.end());
   std::vector<Detuning> all(wanted.size());
   tbb::parallel_for(std::size_t{0}, wanted.size(),
@@ -108,13 +109,31 @@ std::optional<NaturalModeStudy> natural_mode(const DesignStudy& study) {
   const double fastest_m_per_s = study.task.speeds.fastest_m_per_s;
   std::vector<double> reached;
   for (const DesignPoint& point : study.points) {
-    const Requirement& each = point.requirement;
-    if (each.sliding_m_per_s == fastest_m_per_s && each.limit == Obstacle::none) {
+    const steady::Requirement& each = point.requirement;
+    if (each.sliding_m_per_s == fastest_m_per_s && each.limit == steady::Obstacle::none) {
       reached.push_back(each.ratio);
     }
   }
   return reached.empty() ? std::nullopt
                          : natural_mode_study(study.task.stated, reached, fastest_m_per_s);
+}
+
+SelfExcitation self_excitation_at(const scene::Scene& scene, double sliding_m_per_s) {
+  const double most_N = scene.max_drive_force_N();
+  return {sliding_m_per_s, steady::steady_sliding(scene, sliding_m_per_s, 0.0).fate(),
+          steady::drive_windows(scene, sliding_m_per_s, most_N),
+          steady::averaged_drive_windows(scene, sliding_m_per_s, most_N)};
+}
+
+std::vector<SelfExcitation> self_excitation(const Task& task) {
+  if (!steady::friction_falls(task.scene.friction)) {
+    return {};
+  }
+  std::vector<SelfExcitation> all = {self_excitation_at(task.scene, task.speeds.slowest_m_per_s)};
+  if (!is_single(task.speeds)) {
+    all.push_back(self_excitation_at(task.scene, task.speeds.fastest_m_per_s));
+  }
+  return all;
 }
 
 }  // namespace
@@ -129,8 +148,8 @@ std::vector<DesignPoint> moving_points(const DesignStudy& study) {
   return points;
 }
 
-const Requirement* most_electrical(const DesignStudy& study) {
-  const Requirement* most = nullptr;
+const steady::Requirement* most_electrical(const DesignStudy& study) {
+  const steady::Requirement* most = nullptr;
   for (const DesignPoint& point : study.points) {
     const auto& electrical = point.requirement.motion.electrical;
     if (electrical && (most == nullptr || electrical->apparent_power_VA >
@@ -143,7 +162,7 @@ const Requirement* most_electrical(const DesignStudy& study) {
 
 DesignStudy study(const Task& task, const Progress& progress) {
   const std::vector<double> speeds_m_per_s = curve_speeds_m_per_s(task.speeds);
-  DesignStudy study{task, tuning(task.scene), {}, {}, {}, {}, {}};
+  DesignStudy study{task, tuning(task.scene), {}, {}, {}, {}, {}, {}};
   for (const double ratio : task.ratios) {
     study.curves.push_back(ratio_curve(task, ratio, speeds_m_per_s));
     progress(0.5 * static_cast<double>(study.curves.size()) /
@@ -152,10 +171,11 @@ DesignStudy study(const Task& task, const Progress& progress) {
   study.points = design_points(task, study.curves);
   require_an_orbit(study.points);
   study.detunings = detunings(task, study.curves);
-  if (const Requirement* most = most_electrical(study)) {
+  if (const steady::Requirement* most = most_electrical(study)) {
     study.resonant_spring = on_resonance(task.scene, *most);
   }
   study.natural_mode = natural_mode(study);
+  study.self_excitation = self_excitation(task);
   progress(1.0);
   return study;
 }

@@ -9,8 +9,9 @@
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/scene/scene.hpp"
+#include "host_sim/steady/requirement.hpp"
+#include "host_sim/steady/self_excitation.hpp"
 #include "host_sim/studies/design/natural_mode.hpp"
-#include "host_sim/studies/design/requirement.hpp"
 
 namespace sonoglide::design {
 
@@ -37,10 +38,10 @@ double matching_inductance_H(const scene::Scene& scene, const loop::ElectricalFi
 /// The spring that puts the natural frequency on the carrier, and what a ratio then takes.
 struct ResonantSpring {
   double stiffness_N_per_m;  ///< m ω²
-  Requirement requirement;
+  steady::Requirement requirement;
 };
 
-ResonantSpring on_resonance(const scene::Scene& scene, const Requirement& requirement);
+ResonantSpring on_resonance(const scene::Scene& scene, const steady::Requirement& requirement);
 
 // How much of a friction ratio hangs on each parameter.
 
@@ -102,6 +103,14 @@ struct TuningBand {
   double high;
 };
 
+/// Whether steady sliding at one speed feeds an oscillation, and the drives that quench it.
+struct SelfExcitation {
+  double sliding_m_per_s = 0.0;
+  steady::Fate undriven = steady::Fate::unknown;
+  std::vector<steady::DriveWindow> windows;           ///< up to the drive's limit
+  std::vector<steady::DriveWindow> averaged_windows;  ///< likewise, by the averaged friction
+};
+
 /// Of one ratio at one sliding speed.
 struct Detuning {
   double sliding_m_per_s = 0.0;
@@ -112,16 +121,16 @@ struct Detuning {
   /// About resonance: outside it 1 % of Ks changes the ratio by no more than the scene's settling
   /// band; largest_tuning where springs above resonance all are too sensitive.
   std::optional<TuningBand> sensitive;
-  double change_by_stiffness = undefined;  ///< as a point's, at the scene's own tuning
+  double change_by_stiffness = steady::undefined;  ///< as a point's, at the scene's own tuning
   double force_at_sensitive_low_N =
-      undefined;  ///< the least force below resonance outside that band
+      steady::undefined;  ///< the least force below resonance outside that band
 };
 
 inline constexpr double smallest_tuning = 0.01;  ///< without a spring mean friction has no hold
 inline constexpr double largest_tuning = 50.0;   ///< no square number: harmonics meet no resonance
 
 /// @param requirement  of the scene at its own tuning, with a motion
-Detuning detune(const scene::Scene& scene, const Requirement& requirement);
+Detuning detune(const scene::Scene& scene, const steady::Requirement& requirement);
 
 // What a design is asked for.
 
@@ -164,15 +173,15 @@ using Progress = std::function<void(double fraction)>;
 
 /// A ratio at an end of the task's speeds.
 struct DesignPoint {
-  Requirement requirement;
+  steady::Requirement requirement;
   std::vector<Sensitivity> sensitivities;  ///< empty without a motion
 };
 
 /// One friction ratio over all speeds.
 struct RatioRequirements {
   double ratio;
-  std::vector<Requirement> requirements;  ///< by rising speed: study().speeds_m_per_s
-  double fastest_m_per_s;                 ///< at which the whole drive holds the ratio; may be NaN
+  std::vector<steady::Requirement> requirements;  ///< by rising speed: study().speeds_m_per_s
+  double fastest_m_per_s;  ///< at which the whole drive holds the ratio; may be NaN
 };
 
 struct DesignStudy {
@@ -185,11 +194,13 @@ struct DesignStudy {
   std::optional<ResonantSpring> resonant_spring;
   /// With the ratios that are within reach at the fastest speed; none without one.
   std::optional<NaturalModeStudy> natural_mode;
+  /// Of friction that falls with the velocity: at the slowest and the fastest speed.
+  std::vector<SelfExcitation> self_excitation;
 };
 
 /// The point that takes the most apparent power from the amplifier; null without a transducer, and
 /// without a motion.
-const Requirement* most_electrical(const DesignStudy& study);
+const steady::Requirement* most_electrical(const DesignStudy& study);
 
 /// The design points that have a motion.
 std::vector<DesignPoint> moving_points(const DesignStudy& study);

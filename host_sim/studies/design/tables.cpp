@@ -13,17 +13,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string electrical_cells(const SteadyMotion& motion) {
+std::string electrical_cells(const steady::SteadyMotion& motion) {
   if (!motion.electrical) {
-    return output::csv_cells(std::vector<double>(5, undefined));
+    return output::csv_cells(std::vector<double>(5, steady::undefined));
   }
   const loop::ElectricalFigures& figures = *motion.electrical;
   return output::csv_cells({figures.voltage_peak_V, figures.current_peak_A, figures.active_power_W,
                             figures.reactive_power_var, figures.apparent_power_VA});
 }
 
-std::string row(const Requirement& point, bool has_transducer) {
-  const SteadyMotion& motion = point.motion;
+std::string row(const steady::Requirement& point, bool has_transducer) {
+  const steady::SteadyMotion& motion = point.motion;
   return fmt::format(
       "{},{}{}\n",
       output::csv_cells({point.sliding_m_per_s, point.ratio, motion.drive_force_N,
@@ -61,7 +61,7 @@ ordered_json transducer_json(const DesignStudy& study) {
       {"series_resonance_Hz", series_resonance_Hz(scene)},
       {"parallel_resonance_Hz", output::json_number(parallel_resonance_Hz(scene))}};
   if (study.resonant_spring) {
-    const Requirement& requirement = study.resonant_spring->requirement;
+    const steady::Requirement& requirement = study.resonant_spring->requirement;
     json["on_resonance"] = {{"stiffness_N_per_m", study.resonant_spring->stiffness_N_per_m},
                             {"friction_ratio", requirement.ratio},
                             {"sliding_velocity_m_per_s", requirement.sliding_m_per_s},
@@ -74,7 +74,7 @@ ordered_json transducer_json(const DesignStudy& study) {
 }
 
 ordered_json point_json(const scene::Scene& scene, const DesignPoint& point) {
-  const Requirement& each = point.requirement;
+  const steady::Requirement& each = point.requirement;
   ordered_json json = {
       {"sliding_velocity_m_per_s", each.sliding_m_per_s},
       {"friction_ratio", each.ratio},
@@ -131,7 +131,7 @@ std::string requirements_csv(const DesignStudy& study) {
                           "electrical_apparent_power_VA\n"
                         : "\n";
   for (const RatioRequirements& curve : study.curves) {
-    for (const Requirement& point : curve.requirements) {
+    for (const steady::Requirement& point : curve.requirements) {
       csv += row(point, has_transducer);
     }
   }
@@ -177,6 +177,9 @@ ordered_json to_json(const DesignStudy& study) {
   }
   if (study.natural_mode) {
     json["natural_mode"] = to_json(*study.natural_mode);
+  }
+  for (const SelfExcitation& each : study.self_excitation) {
+    json["self_excitation"].push_back(to_json(each));
   }
   return json;
 }

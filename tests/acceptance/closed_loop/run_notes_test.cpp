@@ -12,6 +12,7 @@ namespace {
 
 struct Told {
   std::string terminal;
+  std::string before;  ///< on standard error
   nlohmann::json summary;
   std::string page;
 };
@@ -21,7 +22,7 @@ Told run(const std::string& scene, const std::string& settings) {
   const Outcome outcome =
       folder.run("run " SONOGLIDE_SCENES "/" + scene + ".toml --out out " + settings);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return {outcome.out, nlohmann::json::parse(folder.read("out/summary.json")),
+  return {outcome.out, outcome.err, nlohmann::json::parse(folder.read("out/summary.json")),
           folder.read("out/report.html")};
 }
 
@@ -59,6 +60,25 @@ TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
   EXPECT_GT(told.summary["control"]["limited_periods"]["contact_lost"], 0);
   EXPECT_NE(told.terminal.find("contact_lost, not detected by the controller"), std::string::npos);
   EXPECT_NE(told.summary["control"]["notes"].dump().find("opens the contact"), std::string::npos);
+}
+
+// A ratio near 1 takes a vibration slower than the sliding, which quenches nothing.
+TEST(RunNotesTest, ATargetInAnUnstableWindowIsToldBeforeAndNamedAfter) {
+  const Told told = run(
+      "squeal",
+      "--set friction.law=lugre --set friction.fall_s_per_m= --set friction.rise_s3_per_m3= "
+      "--set friction.coefficient=0.3 --set friction.static_coefficient=0.5 "
+      "--set friction.stribeck_velocity_m_per_s=0.05 --set friction.contact_stiffness_N_per_m=1e6 "
+      "--set sliding.velocity_m_per_s=0.03 --set plant.damping_N_s_per_m=2 "
+      "--set plant.initial_displacement_m= "
+      "--set drive.max_force_amplitude_N=3000 "
+      "--set 'controller.target_friction_ratio=[[0, 0.5], [1, 0.97]]'");
+  EXPECT_NE(told.before.find("The target 0.97 at 0.03 m/s takes a drive of 190"), std::string::npos)
+      << told.before;
+  EXPECT_EQ(told.before.find("The target 0.5"), std::string::npos) << told.before;
+  EXPECT_TRUE(names(told.summary, "self_excited", "simulation")) << told.terminal;
+  EXPECT_EQ(told.summary["control"]["steps"][0]["limit"], "none");
+  EXPECT_NE(told.page.find("self_excited"), std::string::npos);
 }
 
 TEST(RunNotesTest, ABiasIsToldWithWhatItTakesAway) {

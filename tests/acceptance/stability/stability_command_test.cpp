@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
@@ -122,6 +123,42 @@ TEST_F(SmallStability, ThePageHasTheMapsAndTheTable) {
   for (const stability::TriedSolver& solver : stability::solvers()) {
     EXPECT_NE(page.find(solver.name), std::string::npos) << solver.name;
   }
+}
+
+/// The example scene: its windows, its files, and a drive in each window.
+TEST(SelfExcited, FindsTheWindowsOfTheExample) {
+  const ScratchFolder folder;
+  const Outcome found =
+      folder.run("stability " SONOGLIDE_SCENES "/squeal.toml --self-excited --quiet");
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_EQ(found.out, "");
+  const std::string out = "out/squeal_self_excited/";
+  const auto json = nlohmann::json::parse(folder.read(out + "self_excited.json"));
+  EXPECT_EQ(json["undriven"]["fate"], "grows");
+  ASSERT_EQ(json["windows"].size(), 4U);
+  EXPECT_NEAR(json["windows"][1]["to_m_per_s"], 0.147074864502479, 0.005 * 0.147);
+  EXPECT_NEAR(json["windows"][2]["to_m_per_s"], 0.32857223524365475, 0.005 * 0.329);
+  EXPECT_EQ(csv::Table(folder.read(out + "self_excited.csv")).rows().size(), 49U * 65U);
+  EXPECT_EQ(folder.read(out + "self_excited.svg").rfind("<?xml", 0), 0U);
+  EXPECT_NE(folder.read(out + "report.html").find("Floquet multiplier"), std::string::npos);
+}
+
+TEST(SelfExcited, RefusesWhatHasNoSteadySliding) {
+  const ScratchFolder folder;
+  const auto refusal = [&](const std::string& set) {
+    const Outcome outcome =
+        folder.run("stability " SONOGLIDE_SCENES "/squeal.toml --self-excited --set " + set);
+    EXPECT_EQ(outcome.exit_code, 2) << set;
+    return outcome.err;
+  };
+  for (const char* set : {"sliding.velocity_m_per_s=0", "drive.waveform=square",
+                          "friction.sign_convention=as_printed"}) {
+    const std::string key = std::string(set).substr(0, std::string(set).find('='));
+    EXPECT_NE(refusal(set).find(key), std::string::npos) << set;
+  }
+  EXPECT_EQ(folder.run("stability " SONOGLIDE_SCENES "/squeal.toml").exit_code, 2);
+  EXPECT_EQ(folder.run("stability --self-excited").exit_code, 2);
+  EXPECT_TRUE(folder.entries().empty());
 }
 
 }  // namespace

@@ -6,19 +6,23 @@
 
 #include <cmath>
 
-#include "design_scenes.hpp"
 #include "tests/common/constants/pi.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::detuning_test {
 namespace {
 
+using steady::coulomb;
+using steady::resonant;
+using steady::table_1;
+
 Detuning detuning_at(const scene::Scene& scene, double ratio) {
-  return detune(scene, require_ratio(scene, 0.02672, ratio));
+  return detune(scene, steady::require_ratio(scene, 0.02672, ratio));
 }
 
 // The force is as |1 - Ks/(m w^2)|.
 TEST(DetuneTest, ForceFallsWithTheDistanceFromResonance) {
-  const Requirement own = require_ratio(table_1(), 0.02672, 0.5);
+  const steady::Requirement own = steady::require_ratio(table_1(), 0.02672, 0.5);
   const double far = own.motion.drive_force_N / std::abs(1.0 - tuning(table_1()));
   EXPECT_NEAR(tuning(table_1()), 0.0467907, 1e-7);
   for (const DetunedPoint& point : detune(table_1(), own).points) {
@@ -37,9 +41,10 @@ TEST(DetuneTest, ReachEndsWhereTheDriveDoes) {
 
 // The same motion rubs the same.
 TEST(DetuneTest, PowerIsTheSameOnAnySpring) {
-  const SteadyMotion own = require_ratio(table_1(), 0.02672, 0.5).motion;
+  const steady::SteadyMotion own = steady::require_ratio(table_1(), 0.02672, 0.5).motion;
   for (const double other : {0.01, 0.5, 0.9, 2.0}) {
-    const SteadyMotion motion = require_ratio(retuned(table_1(), other), 0.02672, 0.5).motion;
+    const steady::SteadyMotion motion =
+        steady::require_ratio(retuned(table_1(), other), 0.02672, 0.5).motion;
     EXPECT_NEAR(motion.drive_power_W, own.drive_power_W, 1e-3 * own.drive_power_W);
     EXPECT_NEAR(motion.apparent_power_W,
                 own.apparent_power_W * std::abs(1.0 - other) / (1.0 - tuning(table_1())),
@@ -60,13 +65,13 @@ TEST(DetuneTest, SensitivityToTheSpringGrowsTowardsResonance) {
   EXPECT_NEAR(detuning.sensitive->high, allowed / (allowed - 1.0), 0.05);
   for (const double edge : {detuning.sensitive->low, detuning.sensitive->high}) {
     const scene::Scene there = retuned(scene, edge);
-    const double force_N = require_ratio(there, 0.02672, ratio).motion.drive_force_N;
-    const Sensitivity spring = sensitivities(steady_scene(there, 0.02672, force_N))[1];
+    const double force_N = steady::require_ratio(there, 0.02672, ratio).motion.drive_force_N;
+    const Sensitivity spring = sensitivities(steady::steady_scene(there, 0.02672, force_N))[1];
     ASSERT_STREQ(spring.parameter.symbol, "Ks");
     EXPECT_NEAR(spring.largest_change(), scene.run.settling_band, 1e-6);
   }
   EXPECT_LT(detuning.force_at_sensitive_low_N,
-            require_ratio(scene, 0.02672, ratio).motion.drive_force_N);
+            steady::require_ratio(scene, 0.02672, ratio).motion.drive_force_N);
 }
 
 TEST(DetuneTest, AWideBandLeavesNothingTooSensitive) {
@@ -89,7 +94,7 @@ TEST(DetuneTest, ADampedResonanceIsFlatAtItsTopAndSteepBesideIt) {
 }
 
 TEST(DetuneTest, ATargetBeyondTheDriveIsReachedNearerToResonance) {
-  const Requirement beyond = require_ratio(table_1(), 0.1, 0.2);
+  const steady::Requirement beyond = steady::require_ratio(table_1(), 0.1, 0.2);
   const Detuning detuning = detune(table_1(), beyond);
   ASSERT_TRUE(detuning.reachable);
   const double half = 1920.0 / beyond.motion.drive_force_N * (1.0 - tuning(table_1()));

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <complex>
 
-#include "design_scenes.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::electrical_test {
 namespace {
+
+using steady::table_1;
 
 constexpr double force_factor_N_per_V = 16.0;
 constexpr double coupling = 0.49;  // square
@@ -57,7 +59,7 @@ TEST(ElectricalDesignTest, TheClampedCapacitanceTakesItsPower) {
 // Friction is so light that the circuit without it takes the same.
 TEST(ElectricalDesignTest, ARequirementTakesThePowersOfTheCircuit) {
   const scene::Scene scene = transducer_scene();
-  const Requirement requirement = require_ratio(scene, 0.02672, 0.5);
+  const steady::Requirement requirement = steady::require_ratio(scene, 0.02672, 0.5);
   ASSERT_TRUE(requirement.motion.electrical);
   const loop::ElectricalFigures& figures = *requirement.motion.electrical;
   EXPECT_NEAR(figures.voltage_peak_V, requirement.motion.drive_force_N / force_factor_N_per_V,
@@ -75,7 +77,7 @@ TEST(ElectricalDesignTest, ARequirementTakesThePowersOfTheCircuit) {
 // The vibration stays: at resonance its force is that of damping and friction, c v + 4 Fc/π at most.
 TEST(ElectricalDesignTest, ResonanceSavesVoltage) {
   const scene::Scene scene = transducer_scene();
-  const Requirement here = require_ratio(scene, 0.02672, 0.5);
+  const steady::Requirement here = steady::require_ratio(scene, 0.02672, 0.5);
   const ResonantSpring spring = on_resonance(scene, here);
   ASSERT_TRUE(spring.requirement.motion.electrical);
   const double omega = tests::two_pi * scene.drive->frequency_Hz;

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <string>
 
-#include "design_scenes.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::natural_mode_test {
 namespace {
+
+using steady::table_1;
+using steady::transverse;
 
 constexpr double sliding_m_per_s = 0.02672;
 

@@ -6,12 +6,17 @@
 #include <string>
 #include <utility>
 
-#include "design_scenes.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "tests/common/csv/csv.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::report_test {
 namespace {
+
+using steady::falling_lugre;
+using steady::resonant;
+using steady::stribeck;
+using steady::table_1;
 
 DesignStudy study_of(const scene::Scene& scene, const std::vector<double>& ratios,
                      SpeedRange speeds) {
@@ -40,6 +45,24 @@ TEST(AdviceTest, SaysWhatIsOutOfReachAndWhatIsNearest) {
   EXPECT_TRUE(contains(short_of[0], "0.2 is within reach up to 59.4")) << short_of[0];
   EXPECT_TRUE(contains(all_advice(found), "Ratio 0.5: Drive with 151"));
   EXPECT_FALSE(contains(all_advice(found), "Ratio 0.2:"));
+}
+
+TEST(AdviceTest, SaysWhichDrivesQuench) {
+  const DesignStudy found = study_of(falling_lugre(), {0.5, 0.97}, {0.03, 0.03});
+  ASSERT_EQ(found.self_excitation.size(), 1U);
+  const std::string advice = all_advice(found);
+  EXPECT_TRUE(contains(advice,
+                       "Self-excitation: Undriven, steady sliding at 30 mm/s feeds an "
+                       "oscillation. It is stable under a drive of 378.8 N to 3 kN, and "
+                       "feeds an oscillation under 0 N to 378.8 N."))
+      << advice;
+  ASSERT_EQ(shortfalls(found).size(), 1U);
+  EXPECT_TRUE(contains(shortfalls(found)[0], "Ratio 0.97 at 30 mm/s does not stay: under the 190"))
+      << shortfalls(found)[0];
+  const nlohmann::ordered_json json = to_json(found)["self_excitation"][0];
+  EXPECT_EQ(json["undriven"], "grows");
+  EXPECT_EQ(json["windows"].size(), 2U);
+  EXPECT_TRUE(study_of(table_1(), {0.5}, {0.02672, 0.02672}).self_excitation.empty());
 }
 
 TEST(AdviceTest, SaysWhereTheSceneStandsFromResonance) {

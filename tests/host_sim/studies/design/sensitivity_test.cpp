@@ -8,20 +8,26 @@
 #include <map>
 #include <string>
 
-#include "design_scenes.hpp"
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::sensitivity_test {
 namespace {
+
+using steady::coulomb;
+using steady::resonant;
+using steady::Table1;
+using steady::table_1;
 
 using tests::pi;
 
 using BySymbol = std::map<std::string, double>;
 
 scene::Scene at_ratio(const scene::Scene& scene, double ratio) {
-  return steady_scene(scene, 0.02672, require_ratio(scene, 0.02672, ratio).motion.drive_force_N);
+  return steady::steady_scene(scene, 0.02672,
+                              steady::require_ratio(scene, 0.02672, ratio).motion.drive_force_N);
 }
 
 /// d ln rho / d ln p; 0 of a parameter that the scene has not.
@@ -81,7 +87,8 @@ TEST(SensitivityTest, ChangesAreThoseOfTheSimulation) {
   faster.sliding.profile[0].velocity_m_per_s *= 1.01;
   const Sensitivity speed = sensitivities(steady).back();
   EXPECT_STREQ(speed.parameter.key, "sliding.velocity_m_per_s");
-  EXPECT_DOUBLE_EQ(speed.change_by_more, friction_ratio(faster) - friction_ratio(steady));
+  EXPECT_DOUBLE_EQ(speed.change_by_more,
+                   steady::friction_ratio(faster) - steady::friction_ratio(steady));
   EXPECT_NEAR(speed.change_by_more, 0.01 * 0.5 * speed.logarithmic, 1e-4);
   EXPECT_LT(speed.change_by_less, 0.0);
   EXPECT_GE(speed.largest_change(), speed.change_by_more);

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <vector>
 
-#include "design_scenes.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/loop/failure.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::study_test {
 namespace {
+
+using steady::heavy_contact;
+using steady::table_1;
 
 Task task_of(const scene::Scene& scene, const std::vector<double>& ratios,
              const std::optional<SpeedRange>& speeds) {
@@ -84,7 +87,7 @@ TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
   ASSERT_EQ(found.curves.size(), 2U);
   for (const RatioRequirements& curve : found.curves) {
     EXPECT_TRUE(std::is_sorted(curve.requirements.begin(), curve.requirements.end(),
-                               [](const Requirement& a, const Requirement& b) {
+                               [](const steady::Requirement& a, const steady::Requirement& b) {
                                  return a.motion.drive_force_N < b.motion.drive_force_N;
                                }));
   }
@@ -103,7 +106,7 @@ TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
 TEST(StudyTest, GoesOnWhereAnOrbitRepels) {
   const DesignStudy found = study(task_of(heavy_contact(2000.0), {0.9}, {}), [](double) {});
   ASSERT_EQ(found.points.size(), 1U);
-  EXPECT_EQ(found.points[0].requirement.limit, Obstacle::no_orbit);
+  EXPECT_EQ(found.points[0].requirement.limit, steady::Obstacle::unstable);
 }
 
 TEST(StudyTest, FailsWhereNothingCanBeSaid) {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace sonoglide::design {
+namespace sonoglide::steady {
 
 /// Of a root: a relative error of 1e-13.
 inline constexpr int root_bits = 44;
@@ -175,4 +175,4 @@ double root_in(const FallingBracket<Function>& bracket, const Function& function
                  : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace sonoglide::design
+}  // namespace sonoglide::steady

@@ -1,11 +1,11 @@
-/// Closed-loop scenes that designs are made for.
+/// Closed-loop scenes whose steady motion is looked for.
 #pragma once
 
 #include "host_sim/scene/scene.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::steady {
 
 using tests::Table1;
 
@@ -85,6 +85,27 @@ inline scene::Scene heavy_contact(double normal_force_N) {
   return scene;
 }
 
+/// A mass on a belt whose friction falls with the speed, and a mode far below the carrier.
+inline scene::Scene falling_lugre() {
+  scene::Scene scene;
+  scene.plant.mass_kg = 1.0;
+  scene.plant.stiffness_N_per_m = 1e4;
+  scene.plant.damping_N_s_per_m = 2.0;
+  scene.friction.law = scene::laws::LuGre{0.5, 0.05, 0.0, 0.0};
+  scene.friction.coefficient = 0.3;
+  scene.friction.normal_force_N = 10.0;
+  scene.friction.contact_stiffness_N_per_m = 1e6;
+  scene.sliding.profile = {{0.0, 0.03}};
+  scene.drive.emplace();
+  scene.drive->frequency_Hz = 2e3;
+  scene.drive->max_force_amplitude_N = 3000.0;
+  scene.run.duration_s = 4.0;
+  scene.controller.emplace();
+  scene.controller->target_friction_ratio = {{0.0, 0.5}, {1.0, 0.97}};
+  scene.sensor.force_full_scale_N = 10.0;
+  return scene;
+}
+
 /// Natural and drive frequency are one; damping, heavy friction, and little force.
 inline scene::Scene resonant() {
   scene::Scene scene = table_1();
@@ -98,4 +119,4 @@ inline scene::Scene resonant() {
   return scene;
 }
 
-}  // namespace sonoglide::design
+}  // namespace sonoglide::steady

@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,11 @@
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::steady {
 namespace {
 
 constexpr double samples_per_period = 720.0;
 constexpr double solver_tolerance = 1e-12;
-/// Of a search for an orbit: a hundred times what one takes. Under forces far beyond those that a
-/// contact allows for a period may take a million.
-constexpr std::uint64_t most_steps = 200000;
 
 /// Half of peak to peak.
 double amplitude(const std::vector<loop::PlantState>& states, double loop::PlantState::*member) {
@@ -90,4 +87,4 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene) {
                             : std::nullopt};
 }
 
-}  // namespace sonoglide::design
+}  // namespace sonoglide::steady

@@ -1,4 +1,6 @@
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +8,10 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/failure.hpp"
-#include "host_sim/studies/design/root.hpp"
+#include "host_sim/loop/steady_orbit.hpp"
+#include "host_sim/steady/root.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::steady {
 namespace {
 
 /// On the orbit under some forces and speeds: NaN where there is none.
@@ -54,6 +57,10 @@ std::optional<SteadyMotion> motion_at(const scene::Scene& scene, double sliding_
                                                                   : std::nullopt;
 }
 
+bool repels(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {
+  return loop::find_orbit(steady_scene(scene, sliding_m_per_s, drive_force_N), most_steps).repels();
+}
+
 /// At resonance friction alone holds against the drive, and the closed form asks for too little.
 double first_guess_N(const scene::Scene& scene, double closed_form_force_N) {
   return std::max(closed_form_force_N, 0.1 * scene.friction.limit_N());
@@ -84,6 +91,14 @@ void solve(const scene::Scene& scene, double closed_form_force_N, Requirement& f
   }
   found.reason = "no force gives the ratio on an orbit of the drive's period";
   try {
+    if (!std::isnan(force_N) && repels(scene, sliding_m_per_s, force_N)) {
+      found.limit = Obstacle::unstable;
+      found.unstable_force_N = force_N;
+      found.reason = fmt::format(
+          "under the {:.4g} N that give the ratio a small deviation from the steady motion grows",
+          force_N);
+      return;
+    }
     const auto motion = std::isnan(force_N)
                             ? std::nullopt
                             : motion_at(scene, sliding_m_per_s, found.ratio, force_N);
@@ -112,6 +127,8 @@ const char* name(Obstacle limit) {
       return "amplitude";
     case Obstacle::contact_lost:
       return "contact_lost";
+    case Obstacle::unstable:
+      return "unstable";
     case Obstacle::no_orbit:
       break;
   }
@@ -140,7 +157,7 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
     return found;
   }
   solve(scene, closed_form_force_N, found);
-  if (found.limit == Obstacle::no_orbit) {
+  if (found.limit == Obstacle::no_orbit || found.limit == Obstacle::unstable) {
     found.reachable_ratio = undefined;
   }
   if (found.limit == Obstacle::actuator) {
@@ -162,4 +179,4 @@ double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio) {
   return root_in(FallingBracket(shortfall, guess_m_per_s), shortfall);
 }
 
-}  // namespace sonoglide::design
+}  // namespace sonoglide::steady

@@ -1,4 +1,4 @@
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
 
 #include <boost/math/tools/minima.hpp>
 
@@ -16,9 +16,9 @@
 #include "firmware/friction/transverse_vibration_ratio.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/studies/design/root.hpp"
+#include "host_sim/steady/root.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::steady {
 namespace {
 
 namespace laws = scene::laws;
@@ -147,4 +147,4 @@ double force_N(const scene::Scene& scene, double vibration_m_per_s) {
   return configure::dynamic_stiffness_N_per_m(scene.plant, omega) * vibration_m_per_s / omega;
 }
 
-}  // namespace sonoglide::design
+}  // namespace sonoglide::steady

@@ -1,13 +1,13 @@
-#include "host_sim/studies/design/requirement.hpp"
+#include "host_sim/steady/requirement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "design_scenes.hpp"
 #include "tests/common/constants/pi.hpp"
+#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
 
-namespace sonoglide::design::closed_form_test {
+namespace sonoglide::steady::closed_form_test {
 namespace {
 
 using tests::pi;
@@ -79,4 +79,4 @@ TEST(ClosedFormVibrationTest, HasALowestRatioWhereFrictionRisesWithTheVibration)
 }
 
 }  // namespace
-}  // namespace sonoglide::design::closed_form_test
+}  // namespace sonoglide::steady::closed_form_test

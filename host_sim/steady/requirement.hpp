@@ -1,6 +1,7 @@
 /// The drive that a friction ratio takes at a sliding speed.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -8,9 +9,13 @@
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/scene/scene.hpp"
 
-namespace sonoglide::design {
+namespace sonoglide::steady {
 
 // The plant on its steady orbit under one drive force.
+
+/// Of a search for an orbit: a hundred times what one takes. Under forces far beyond those that a
+/// contact allows for a period may take a million.
+inline constexpr std::uint64_t most_steps = 200000;
 
 /// A figure that there is not.
 inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
@@ -82,6 +87,7 @@ enum class Obstacle {
   actuator,      ///< the force is more than the drive has
   amplitude,     ///< no vibration makes the ratio so low
   contact_lost,  ///< none that leaves a contact closed that vibrates normally
+  unstable,      ///< the steady vibration that gives it repels: a small deviation grows
   no_orbit,      ///< no steady vibration has been found
 };
 
@@ -92,7 +98,7 @@ struct Requirement {
   double sliding_m_per_s = 0.0;
   double ratio = 0.0;
   Obstacle limit = Obstacle::none;
-  std::string reason;     ///< of no_orbit
+  std::string reason;     ///< of unstable and no_orbit
   bool any_orbit = true;  ///< false: under no force that was tried is there one
   SteadyMotion motion;    ///< at the smallest force that gives the ratio
   double closed_form_force_N =
@@ -100,7 +106,8 @@ struct Requirement {
   double closed_form_error =
       undefined;  ///< of the ratio: what that force really gives, less the ratio
   double reachable_ratio =
-      undefined;  ///< the nearest that the drive can hold at this speed; NaN with no_orbit
+      undefined;  ///< the nearest that the drive can hold at this speed; NaN with the last two
+  double unstable_force_N = undefined;  ///< of unstable
 };
 
 /// By the closed form's inverse, put right by a root of the ratio on the steady orbit. The search
@@ -114,4 +121,4 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
 /// Fastest sliding at which the whole drive holds a ratio [m/s]; NaN where none is found.
 double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio);
 
-}  // namespace sonoglide::design
+}  // namespace sonoglide::steady

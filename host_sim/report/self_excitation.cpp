@@ -1,0 +1,58 @@
+#include "host_sim/report/self_excitation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/steady/requirement.hpp"
+#include "host_sim/steady/self_excitation.hpp"
+
+namespace sonoglide::report {
+namespace {
+
+double speed_m_per_s(const scene::Scene& scene, double time_s) {
+  return std::abs(loop::SlidingProfile(scene.sliding).velocity_m_per_s(time_s));
+}
+
+}  // namespace
+
+bool may_excite_itself(const scene::Scene& scene) {
+  return scene.drive && scene.drive->waveform == scene::Waveform::cosine &&
+         scene.profile_key() == nullptr && steady::friction_falls(scene.friction);
+}
+
+bool excites_itself(const scene::Scene& scene, double time_s, double drive_force_N) {
+  const double sliding_m_per_s = speed_m_per_s(scene, time_s);
+  return sliding_m_per_s > 0.0 && std::isfinite(drive_force_N) &&
+         steady::steady_sliding(scene, sliding_m_per_s, std::abs(drive_force_N)).fate() ==
+             steady::Fate::grows;
+}
+
+std::vector<std::string> self_excitation_notes(const scene::Scene& scene) {
+  if (!scene.controller || !may_excite_itself(scene)) {
+    return {};
+  }
+  std::vector<std::string> notes;
+  std::set<std::pair<double, double>> told;
+  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+    const double sliding_m_per_s = speed_m_per_s(scene, step.time_s);
+    if (!(sliding_m_per_s > 0.0) || !told.emplace(step.friction_ratio, sliding_m_per_s).second) {
+      continue;
+    }
+    const steady::Requirement needed =
+        steady::require_ratio(scene, sliding_m_per_s, step.friction_ratio);
+    if (needed.limit == steady::Obstacle::unstable) {
+      notes.push_back(fmt::format(
+          "The target {:.4g} at {:.4g} m/s takes a drive of {:.4g} N, under which falling friction "
+          "feeds an oscillation. `sonoglide stability {}.toml --self-excited` has the windows of the "
+          "drive that quench it.",
+          step.friction_ratio, sliding_m_per_s, needed.unstable_force_N, scene.name));
+    }
+  }
+  return notes;
+}
+
+}  // namespace sonoglide::report
