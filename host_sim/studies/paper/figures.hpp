@@ -106,12 +106,16 @@ struct PrintedFault {
 
 std::vector<PrintedFault> faults();
 
+/// What the introduction says of dither against squeal, on a mass on a belt.
+std::vector<Claim> dither_claims();
+
 // The paper's figures and balance as data, pictures and one page.
 
 /// What is no figure.
 struct Findings {
   std::vector<PrintedFault> faults;
   std::vector<Balance> balances;
+  std::vector<Claim> dither;
 };
 
 /// @param findings  left out where empty

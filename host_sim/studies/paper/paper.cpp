@@ -55,7 +55,7 @@ void write_paper(const std::filesystem::path& out, std::optional<int> figure,
   const std::vector<Figure> figures = compute(figure, progress);
   Findings findings;
   if (!figure) {
-    findings = {faults(), balances()};
+    findings = {faults(), balances(), dither_claims()};
   }
   progress(1.0);
   output::OutputFolder folder(out);
@@ -89,9 +89,9 @@ const char* word(ClaimStatus verdict) {
   return "depends";
 }
 
-output::Table claim_table(const Figure& figure) {
+output::Table claim_table(const std::vector<Claim>& claims) {
   output::Table table{"", {"What the paper says", "It", "Numbers"}, {}};
-  for (const Claim& claim : figure.claims) {
+  for (const Claim& claim : claims) {
     table.rows.push_back({claim.statement, word(claim.verdict), claim.numbers});
   }
   return table;
@@ -104,9 +104,20 @@ output::Section section(const Figure& figure) {
       "{0} For print: figure_{2:02}.svg; data: figure_{2:02}.csv. To compute it again: "
       "{1}",
       figure.conditions, figure.command, figure.number);
-  section.tables = {claim_table(figure)};
+  section.tables = {claim_table(figure.claims)};
   section.tables.insert(section.tables.end(), figure.tables.begin(), figure.tables.end());
   section.charts = figure.charts;
+  return section;
+}
+
+output::Section section(const std::vector<Claim>& dither) {
+  output::Section section;
+  section.title = "Dither and squeal, from the introduction";
+  section.text =
+      "A mass of 1 kg on a spring of 10 kN/m and a belt at 20 mm/s, with friction that falls with the "
+      "velocity (squeal.toml of the example scenes), under a fast drive. `sonoglide stability SCENE "
+      "--self-excited` maps such a scene.";
+  section.tables = {claim_table(dither)};
   return section;
 }
 
@@ -165,6 +176,9 @@ output::Page paper_page(const std::vector<Figure>& figures, const Findings& find
       "(6) and (8) and not of (1) and (2).";
   for (const Figure& figure : figures) {
     page.sections.push_back(section(figure));
+  }
+  if (!findings.dither.empty()) {
+    page.sections.push_back(section(findings.dither));
   }
   if (!findings.faults.empty()) {
     page.sections.push_back(section(findings.faults));

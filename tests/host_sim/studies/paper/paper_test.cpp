@@ -242,5 +242,18 @@ TEST(PaperTest, TheFaultsHaveTheirKnownEffects) {
   EXPECT_NE(all[3].effect.find("0.6749 on the steady orbit"), std::string::npos) << all[3].effect;
 }
 
+/// The multipliers undriven and of the averaged slope by hand: exp(-F'/(2 m f)).
+TEST(PaperTest, DitherIsJudgedOnAMassOnABelt) {
+  const std::vector<Claim> claims = dither_claims();
+  ASSERT_EQ(claims.size(), 3U);
+  for (const Claim& each : claims) {
+    EXPECT_EQ(each.verdict, ClaimStatus::holds) << each.numbers;
+  }
+  EXPECT_NE(claims[0].numbers.find("by 1.004990 undriven and by 0.998200 under"), std::string::npos)
+      << claims[0].numbers;
+  EXPECT_NE(claims[2].numbers.find("147.1 mm/s (147.1 mm/s) at 2 kHz"), std::string::npos)
+      << claims[2].numbers;
+}
+
 }  // namespace
 }  // namespace sonoglide::paper::paper_test
