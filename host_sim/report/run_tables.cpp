@@ -85,7 +85,7 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
         fmt::format("{:.6f}", window.pull_ratio));
     row("Power dissipation ratio, window", fmt::format("{:.6f}", window.dissipation_ratio));
     row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
-    row("Change of stored energy, window", fmt::format("{:.6f}", window.stored_change_ratio));
+    row("Change of stored energy, window", figure("{:.6f}", window.stored_change_ratio));
     row("Damping, window", fmt::format("{:.6f}", window.damping_ratio));
   }
   if (scene::is<scene::laws::NormalCoulomb>(scene.friction.law)) {

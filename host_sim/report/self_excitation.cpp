@@ -47,7 +47,7 @@ std::vector<std::string> self_excitation_notes(const scene::Scene& scene) {
     if (needed.limit == steady::Obstacle::unstable) {
       notes.push_back(fmt::format(
           "The target {:.4g} at {:.4g} m/s takes a drive of {:.4g} N, under which falling friction "
-          "feeds an oscillation. `sonoglide stability {}.toml --self-excited` has the windows of the "
+          "feeds an oscillation. sonoglide stability {}.toml --self-excited tells the windows of the "
           "drive that quench it.",
           step.friction_ratio, sliding_m_per_s, needed.unstable_force_N, scene.name));
     }

@@ -66,7 +66,7 @@ output::Section self_excitation_section(const DesignStudy& study) {
       "on its spring. The steady motion under a constant drive is stable where its Floquet "
       "multipliers over a carrier period are below 1. \"By averaging\": the mean friction under a "
       "sinusoidal vibration, as a force that changes with the sliding velocity, damps a slow natural "
-      "mode. `sonoglide stability SCENE.toml --self-excited` has the map over speed and drive.";
+      "mode. The command sonoglide stability SCENE.toml --self-excited draws the map over speed and drive.";
   output::Table table{"", {"Sliding", "Found by", "From", "To", "Steady sliding"}, {}};
   const auto add = [&](const SelfExcitation& each, const char* by,
                        const std::vector<steady::DriveWindow>& windows) {

@@ -115,8 +115,8 @@ output::Section section(const std::vector<Claim>& dither) {
   section.title = "Dither and squeal, from the introduction";
   section.text =
       "A mass of 1 kg on a spring of 10 kN/m and a belt at 20 mm/s, with friction that falls with the "
-      "velocity (squeal.toml of the example scenes), under a fast drive. `sonoglide stability SCENE "
-      "--self-excited` maps such a scene.";
+      "velocity (squeal.toml of the example scenes), under a fast drive. sonoglide stability SCENE "
+      "--self-excited maps such a scene.";
   section.tables = {claim_table(dither)};
   return section;
 }
