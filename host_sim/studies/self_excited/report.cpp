@@ -28,7 +28,7 @@ struct Shade {
 
 constexpr std::array<Shade, 4> shades = {{
     {Fate::dies_out, "#56B4E9", "steady sliding is stable"},
-    {Fate::grows, "#D55E00", "it excites itself"},
+    {Fate::grows, "#D55E00", "it is unstable"},
     {Fate::stays, "#F0E442", "nothing damps it"},
     {Fate::unknown, "#999999", "no steady motion found"},
 }};
@@ -180,7 +180,8 @@ std::string undriven_text(const Study& study) {
   }
   text += '.';
   if (!study.falls) {
-    text += " The friction of this contact never falls with the velocity: it excites nothing.";
+    text +=
+        " The friction of this contact never falls with the velocity: undriven it excites nothing.";
   }
   return text;
 }
