@@ -23,6 +23,29 @@ class PlainWord {
   T value_{};
 };
 
+/// A word of two sides of which one interrupts the other, on one processor: in the place of an atomic one, which
+/// has barriers for other processors. The compiler alone is kept from moving what comes before or after it.
+template <class T>
+class InterruptedWord {
+ public:
+  constexpr InterruptedWord() = default;
+  constexpr InterruptedWord(T value)
+      : value_(value) {}  // NOLINT(google-explicit-constructor): as std's
+
+  T load(std::memory_order /*order*/) const {
+    const T value = value_;
+    std::atomic_signal_fence(std::memory_order_acquire);
+    return value;
+  }
+  void store(T value, std::memory_order /*order*/) {
+    std::atomic_signal_fence(std::memory_order_release);
+    value_ = value;
+  }
+
+ private:
+  volatile T value_{};
+};
+
 /// The writer, an interrupt or another thread, never waits. The reader reads again where the writer
 /// came in between; it must not interrupt the writer.
 ///

@@ -1,6 +1,7 @@
 /// A controller in the field: what its host may ask of it.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,11 +30,14 @@ enum class Answer : std::uint8_t {
 /// It belongs to the service, except for its supervisor's control side (CommandedSupervisor), which may
 /// interrupt every call. What a request asks of the controller is an order; the next one may be given
 /// when it has ended.
-template <class PartsT, class Flash>
+///
+/// @tparam Word  std::atomic; InterruptedWord where the control side is an interrupt of the only processor
+template <class PartsT, class Flash, template <class> class Word = std::atomic>
 class Unit {
  public:
   using Design = FieldDesign<PartsT>;
-  using Supervisor = CommandedSupervisor<typename Design::Controller, typename Design::Designed>;
+  using Supervisor =
+      CommandedSupervisor<typename Design::Controller, typename Design::Designed, Word>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none.
   /// @param design  outlives the unit.

@@ -12,6 +12,7 @@
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
 sonoglide_room(sonoglide_timed hal/timed USES sonoglide_hal)
+sonoglide_room(sonoglide_carrier_image firmware/image/carrier USES sonoglide_control)
 sonoglide_room(sonoglide_image_plant firmware/image/plant
   USES sonoglide_strang sonoglide_hal sonoglide_start)
 
@@ -26,7 +27,7 @@ function(sonoglide_image target)
     sonoglide_app ${IMAGE_USES} sonoglide_freestanding sonoglide_warnings)
   target_link_options(${target} PRIVATE "-L${PROJECT_SOURCE_DIR}" "-T${script}")
   set_target_properties(${target} PROPERTIES
-    LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/start/sections.ld")
+    LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/start/loaded_sections.ld")
 endfunction()
 
 # sonoglide_images(<suffix> SOURCE <main> CLASS <board> HEADER <its header> MEMORY <linker script>
@@ -68,6 +69,37 @@ function(sonoglide_board name)
   sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
     CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
     USES sonoglide_board sonoglide_processor)
+endfunction()
+
+# sonoglide_carrier_board(<name> FOLDER <f> HARDWARE <class>): a board whose carrier interrupts. Its class is
+# in <f>/board.hpp, its memory map in <f>/memory.ld. Each controller gives <name of its folder>_unit.elf, with
+# a link to its host, and <name>_scene.elf, with the targets of its scene. <f>/write_uf2 writes a .uf2 beside
+# each, where there is Python.
+function(sonoglide_carrier_board name)
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  if(NOT name STREQUAL SONOGLIDE_BOARD)
+    return()
+  endif()
+  cmake_parse_arguments(BOARD "" "FOLDER;HARDWARE" "" ${ARGN})
+  sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
+  find_program(SONOGLIDE_INTERPRETER python3)
+  foreach(image unit scene)
+    sonoglide_images(_${image} SOURCE firmware/image/carrier_${image}.cpp
+      MEMORY ${BOARD_FOLDER}/memory.ld CLASS ${BOARD_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
+      USES sonoglide_carrier_image sonoglide_board sonoglide_processor)
+    foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+      get_filename_component(controller "${folder}" NAME)
+      set(target ${controller}_${image})
+      # Measured on a Cortex-M0+: 5 % fewer clocks in a carrier period.
+      target_compile_options(${target} PRIVATE
+        -O3 -fno-tree-pre -fno-split-wide-types -fno-ivopts -fno-reorder-blocks -fno-tree-sink)
+      if(SONOGLIDE_INTERPRETER)
+        add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+          COMMAND "${SONOGLIDE_INTERPRETER}" "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/write_uf2"
+            "$<TARGET_FILE:${target}>")
+      endif()
+    endforeach()
+  endforeach()
 endfunction()
 
 # sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>
@@ -127,6 +159,7 @@ if(CMAKE_CROSSCOMPILING)
   endif()
 
   sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
+  sonoglide_carrier_board(pico FOLDER hal/pico HARDWARE pico::Hardware)
   sonoglide_emulated_board(microbit FOLDER hal/microbit
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
   foreach(board mps2-an385 mps2-an386 mps2-an500)

@@ -1,0 +1,70 @@
+// The controller of one scene on a board whose carrier interrupts, with the targets of the scene and without
+// a host: it drives from power-on. Its commands are compared with those of the workstation.
+#include SONOGLIDE_BOARD_HEADER
+
+#include <cstdint>
+
+#include "controller_configuration.hpp"
+#include "firmware/app/control_loop.hpp"
+#include "firmware/app/target_schedule.hpp"
+#include "firmware/control/controller.hpp"
+#include "firmware/image/carrier/carrier_ticks.hpp"
+
+namespace {
+
+using Hardware = SONOGLIDE_BOARD_CLASS;
+namespace app = sonoglide::app;
+namespace configuration = app::configuration;
+namespace hal = sonoglide::hal;
+
+constexpr std::uint32_t ticks =
+    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board>::of(
+        configuration::carrier_period_s);
+static_assert(ticks != 0,
+              "this board cannot make drive.frequency_Hz; its README lists those it can");
+
+/// The board, whose answers are there for who watches the memory.
+class ShownBoard : public Hardware::Board {
+ public:
+  using Hardware::Board::Board;
+  void drive(const hal::Drive& drive);
+};
+
+using Controller = sonoglide::control::Controller<configuration::Parts>;
+using Targets = decltype(app::schedule_of(configuration::target_steps));
+
+struct Run {
+  Controller controller{configuration::parameters};
+  ShownBoard board{ticks};
+  app::ControlLoop<Controller, ShownBoard> loop{controller, board};
+  Targets targets = app::schedule_of(configuration::target_steps);
+};
+
+Run* run;  // set before the carrier interrupts
+
+}  // namespace
+
+extern "C" {
+hal::Drive last_answer;
+
+void take_carrier() {
+  run->targets.advance(run->controller);
+  run->loop.serve();
+}
+}
+
+namespace {
+void ShownBoard::drive(const hal::Drive& drive) {
+  Hardware::Board::drive(drive);
+  last_answer = drive;
+}
+}  // namespace
+
+int main() {
+  Run own;
+  own.controller.start();
+  run = &own;
+  Hardware::Board::interrupt();
+  for (;;) {
+  }
+}

@@ -1,0 +1,58 @@
+// The unit of one scene on a board whose carrier interrupts: control in the interrupt, the link to the host
+// in what time is left.
+#include SONOGLIDE_BOARD_HEADER
+
+#include <cstdint>
+
+#include "controller_configuration.hpp"
+#include "firmware/app/field_parameters.hpp"
+#include "firmware/app/link_service.hpp"
+#include "firmware/app/sequence_lock.hpp"
+#include "firmware/app/timed_loop.hpp"
+#include "firmware/app/unit.hpp"
+#include "firmware/image/carrier/carrier_ticks.hpp"
+
+namespace {
+
+using Hardware = SONOGLIDE_BOARD_CLASS;
+namespace app = sonoglide::app;
+namespace configuration = app::configuration;
+
+constexpr std::uint32_t ticks =
+    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board>::of(
+        configuration::carrier_period_s);
+static_assert(ticks != 0,
+              "this board cannot make drive.frequency_Hz; its README lists those it can");
+
+constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
+                                                        configuration::target_steps[0].half_ratio,
+                                                        configuration::design,
+                                                        configuration::carrier_period_s,
+                                                        app::default_timeout_ms);
+
+using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;
+using Service = app::LinkService<Unit, Hardware::ByteLink>;
+using Loop = app::TimedLoop<Unit::Supervisor, Hardware::Board, Hardware::Watchdog, Service>;
+
+Loop* loop;  // set before the carrier interrupts
+
+}  // namespace
+
+extern "C" void take_carrier() {
+  loop->control();
+}
+
+int main() {
+  Hardware::ByteLink bytes;
+  Hardware::Watchdog watchdog;
+  Hardware::Flash flash;
+  Unit unit(design, flash);
+  Service service(unit, bytes);
+  Hardware::Board board(ticks);
+  Loop own(unit.supervisor(), board, watchdog, service);
+  loop = &own;
+  Hardware::Board::interrupt();
+  for (;;) {
+    own.service();
+  }
+}

@@ -1,0 +1,66 @@
+/// From an amplitude to the pulses of a bridge.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sonoglide::hal::pico {
+
+namespace detail {
+
+constexpr unsigned table_bits = 10;
+constexpr unsigned width_bits = 13;  ///< a half width of 1 is half of a carrier period
+
+/// Error below 1e-9 for 0 … pi/2; the compiler's alone.
+constexpr double sine(double angle) {
+  double term = angle;
+  double sum = angle;
+  for (int i = 1; i < 8; ++i) {
+    term *= -angle * angle / ((2 * i) * (2 * i + 1));
+    sum += term;
+  }
+  return sum;
+}
+
+/// asin(i / 2^table_bits) / pi with width_bits, to nearest.
+constexpr auto half_widths() {
+  constexpr double pi = 3.14159265358979323846;
+  constexpr std::size_t last = std::size_t{1} << table_bits;
+  constexpr std::uint16_t widest = 1U << (width_bits - 1);
+  std::array<std::uint16_t, last + 1> widths{};
+  std::uint16_t width = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double amplitude = static_cast<double>(i) / static_cast<double>(last);
+    while (width < widest && sine(pi * (width + 0.5) / (2 * widest)) < amplitude) {
+      ++width;
+    }
+    widths[i] = width;
+  }
+  return widths;
+}
+
+inline constexpr auto half_width_table = half_widths();
+
+}  // namespace detail
+
+/// Compare values of both outputs of a slice that counts from 0 to half a carrier period less one and
+/// down again. A is high within w counts of 0, and B, which is inverted, within w of the top: a pulse of
+/// either sign in each carrier period, half a period apart. The voltage between the legs of the bridge then
+/// has no even harmonic, and a fundamental of
+///
+///   sin(pi w / half_period) of full scale, which is 4/pi of the supply; its phase is always 0.
+///
+/// @param amplitude    code, 0 … 2^31 - 1; reached within 1/2048 + pi / (2 half_period) of full scale
+/// @param half_period  clocks, below 2^16
+constexpr std::uint32_t pulses_of(std::int32_t amplitude, std::uint32_t half_period) {
+  constexpr unsigned unused = 31 - detail::table_bits;
+  const std::uint32_t index =
+      (static_cast<std::uint32_t>(amplitude) + (1U << (unused - 1))) >> unused;
+  const std::uint32_t width = detail::half_width_table[index];
+  const std::uint32_t clocks =
+      (width * half_period + (1U << (detail::width_bits - 1))) >> detail::width_bits;
+  return clocks | (half_period - clocks) << 16;
+}
+
+}  // namespace sonoglide::hal::pico

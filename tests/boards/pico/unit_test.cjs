@@ -1,0 +1,137 @@
+// A unit on the emulated Pico under random orders of a host, with a contact behind its converters and its
+// bridge: no carrier period is late, the host is answered, what is saved is there after a reset, and a
+// service that hangs ends in a reset with the drive at zero.
+//
+// Usage: node unit_test.cjs IMAGE SECONDS SEED   (IMAGE: an .elf or a .uf2 file)
+const assert = require('node:assert');
+const {Pico} = require('../../../hal/pico/emulated/pico.cjs');
+const {Link, kinds} = require('./link.cjs');
+
+const longestControl = 2000; // clocks from the carrier's interrupt to its end, of 2,200
+const driveLimit = 1; // numbers of parameters
+const hostTimeout = 7;
+const refusedWhileDriving = 6;
+const states = {off: 0, fault: 4};
+const faults = {overrun: 32, watchdogReset: 33, serviceStalled: 37};
+
+const [, , image, seconds, seed] = process.argv;
+let state = Number(seed) >>> 0;
+function random(below) { // xorshift32
+  state ^= state << 13;
+  state ^= state >>> 17;
+  state ^= state << 5;
+  return (state >>> 0) % below;
+}
+
+const pico = new Pico(image);
+
+// Friction moves half of the way to its value in each carrier period, as timed::StandInContact.
+let amplitude = 0;
+let friction = 0.5;
+const noise = () => random(41) - 20;
+pico.input = (period, channel) => channel === 1 ? 2048 + 205 : Math.round(2048 + 2048 * friction) + noise();
+
+let worst = 0;
+let controls = 0;
+const counts = new Map();
+pico.onControl = clocks => {
+  ++controls;
+  worst = Math.max(worst, clocks);
+  counts.set(clocks, (counts.get(clocks) ?? 0) + 1);
+};
+pico.onPeriod = (latched, late) => {
+  assert.ok(!late, `the interrupt of period ${pico.periods} is late`);
+  amplitude = Math.sin(Math.PI * (latched & 0xffff) / 1100);
+  friction += ((amplitude > 0.1 ? 0.05 / amplitude : 0.5) - friction) / 2;
+};
+
+let answer = null;
+const link = new Link(pico, frame => { answer = frame; });
+const tally = {asked: 0, refused: 0};
+
+// The answer to a request; none within 50 ms is a failure.
+function ask(kind, ...fields) {
+  answer = null;
+  const end = pico.seconds + 0.05 + (kind === kinds.writeParameter ? 0.2 : 0);
+  link.request(kind, ...fields);
+  pico.runWhile(() => answer === null && pico.seconds < end);
+  assert.ok(answer !== null, `request ${kind} is not answered at ${pico.seconds} s`);
+  assert.strictEqual(answer.kind, kind);
+  assert.strictEqual(answer.sequence, link.sequence);
+  ++tally.asked;
+  tally.refused += answer.refused ? 1 : 0;
+  return answer;
+}
+
+function telemetry() {
+  const {payload} = ask(kinds.telemetry);
+  const [period, force, velocity, driven, target] = [0, 4, 8, 12, 16].map(at => payload.readInt32LE(at));
+  return {period, force, velocity, amplitude: driven, target, state: payload[20], fault: payload[22],
+          parameters: payload[23], lost: payload.readUInt16LE(24)};
+}
+
+function pause(duration) {
+  const end = pico.seconds + duration;
+  pico.runWhile(() => pico.seconds < end);
+}
+
+function act() {
+  const chance = random(16);
+  if (chance < 4) {
+    ask(kinds.restart);
+  } else if (chance < 6) {
+    ask(kinds.stop);
+  } else if (chance < 10) {
+    ask(kinds.target, [100000 + random(800000), 4]);
+  } else if (chance < 11) {
+    const {refused, payload} = ask(kinds.writeParameter, [driveLimit, 1], [300000 + random(700001), 4]);
+    assert.ok(!refused || payload[1] === refusedWhileDriving);
+  } else {
+    assert.notStrictEqual(telemetry().fault, faults.overrun);
+  }
+  pause(random(1000) * 5e-6);
+}
+
+// A unit that was never used is off, and its drive at zero.
+const first = telemetry();
+assert.deepStrictEqual([first.state, first.parameters, first.amplitude], [states.off, 1, 0]);
+
+let driven = 0;
+while (pico.seconds < Number(seconds)) {
+  act();
+  driven += amplitude > 0.1 ? 1 : 0;
+}
+assert.ok(driven > 0, 'the unit never drives');
+assert.strictEqual(telemetry().lost, 0);
+assert.strictEqual(pico.resets, 0);
+
+// What is saved is there after a reset, and a service that hangs is one.
+ask(kinds.stop);
+assert.ok(!ask(kinds.writeParameter, [driveLimit, 1], [765432, 4]).refused);
+ask(kinds.target, [400000, 4]);
+ask(kinds.restart);
+for (let i = 0; i < 3; ++i) {
+  pause(0.01);
+  telemetry();
+}
+assert.ok(amplitude > 0.1, 'the unit does not drive');
+pico.runWhile(() => pico.inInterrupt);
+const loop = 0x20041000; // above the stack
+pico.mcu.writeUint16(loop, 0xe7fe); // b .
+pico.mcu.core.PC = loop;
+const hung = pico.seconds;
+pico.runWhile(() => amplitude > 0 && pico.seconds < hung + 0.06);
+assert.strictEqual(amplitude, 0, 'a hung service goes unnoticed');
+pico.runWhile(() => pico.resets === 0 && pico.mcu.clock.nanos < (hung + 0.2) * 1e9);
+assert.strictEqual(pico.resets, 1, 'the watchdog does not reset a hung unit');
+pause(0.02);
+const last = telemetry();
+assert.deepStrictEqual([last.state, last.fault, last.parameters, amplitude],
+                       [states.fault, faults.watchdogReset, 0, 0]);
+assert.strictEqual(ask(kinds.readParameter, [driveLimit, 1]).payload.readUInt32LE(2), 765432);
+
+let below = 0;
+const [median] = [...counts].sort(([a], [b]) => a - b).find(([, times]) => (below += times) * 2 >= controls);
+console.log(`${controls} carrier periods, none late; ${tally.asked} requests answered, ${tally.refused} of ` +
+    `them refused; control takes ${median} clocks in the median, ${worst} at most, of 2200`);
+assert.ok(worst <= longestControl, `control takes ${worst} clocks`);
