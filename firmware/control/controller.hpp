@@ -113,6 +113,8 @@ class Controller {
   /// What is known of the friction.
   const FrictionLevel<Scalar>& friction_level() const { return level_; }
   const typename PartsT::Relearning& relearning() const { return relearning_; }
+  /// none, or what the measured ratio shows against what is known: mismatch or not_settling.
+  Limit disagreement() const { return watch_.limit_named(); }
 
   /// Answer to one carrier period, valid for the next.
   template <Numbers Known = Numbers::any>
@@ -278,6 +280,7 @@ class Controller {
     }
     if (task == Task::adapt) {
       relearning_.adapt(feedforward_, level_);
+      relearning_.align(regulator_, feedforward_, speed, requested_);
       return {requested_, Limit::none};
     }
     commanded_ = whole_ratio();

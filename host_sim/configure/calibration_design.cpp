@@ -176,6 +176,23 @@ double gain_deviation(const scene::Scene& scene, const NominalPlant& plant) {
   return std::min(most, root_of_squares(scene.transducer ? force_factor : drive, of_stiffness));
 }
 
+/// Carrier periods that a reading may wait for the contact: half of the shortest target's time, with what
+/// else a reading takes.
+/// @param others  what else it takes
+double longest_settling(const scene::Scene& scene, const ControlDesign& design, double others) {
+  constexpr double part = 0.5;
+  const auto& targets = scene.controller->target_friction_ratio;
+  double shortest_s = scene.run.duration_s;
+  double end_s = scene.run.duration_s;
+  for (auto target = targets.rbegin(); target != targets.rend(); ++target) {
+    if (target->time_s < end_s) {
+      shortest_s = std::min(shortest_s, end_s - target->time_s);
+      end_s = target->time_s;
+    }
+  }
+  return std::max(1.0, part * shortest_s / design.scales.carrier_period_s - others);
+}
+
 }  // namespace
 
 void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
@@ -260,20 +277,30 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
   require_trackable(scene, design);
   constexpr double fewest_readings = 8.0;  // over which a mass that still rings is averaged
   constexpr double map_error = 0.003;      // of the inverse map, in friction ratio
+  constexpr double least_noise = 0.0005;   // of a mean force, over the friction force
+  constexpr double noise_deviations = 1.5;
   constexpr double certain_deviations = 2.5;
   constexpr double surely_beyond = 3.0;  // deviations of the gain
   constexpr double least_edge = 0.25;
+  constexpr double dips = 2.0;  // readings that a dip may take
   const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
   const double readings = std::max(fewest_readings, readings_for_mean(scene, plant));
+  const double latency = latency_periods(scene) + design.changing_periods();
+  const double settling = settling_periods(scene, plant, design, usual_presliding_travels);
+  const double waited = std::min(settling, longest_settling(scene, design, latency + readings));
   design.tracks = true;
-  design.tracking_wait_periods =
-      whole_periods(latency_periods(scene) + design.changing_periods() + slewing +
-                    settling_periods(scene, plant, design, usual_presliding_travels));
+  design.tracking_wait_periods = whole_periods(latency + waited);
   design.tracking_average_periods = static_cast<std::uint8_t>(readings);
+  design.tracking_dip_periods =
+      whole_periods(dips * (design.tracking_wait_periods + readings) + slewing);
   design.tracking_weight = mean_weight(readings);
+  design.tracking_unsettled =
+      waited < settling ? std::exp(-usual_presliding_travels * waited / settling) : 0.0;
   const double noise_N = root_of_squares(scene.sensor.reading_noise_N() / numeric::sqrt(readings),
                                          code_N(scene.sensor) / numeric::sqrt(12.0));
-  design.tracking_deviation = root_of_squares(map_error, noise_N / plant.friction_N);
+  design.tracking_deviation = root_of_squares(root_of_squares(map_error, design.tracking_unsettled),
+                                              noise_N / plant.friction_N);
+  design.tracking_noise = std::max(least_noise, noise_deviations * noise_N / plant.friction_N);
   design.tracking_certain =
       std::max(scene.run.settling_band, certain_deviations * design.tracking_deviation);
   design.gain_deviation = gain_deviation(scene, plant);

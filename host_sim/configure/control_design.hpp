@@ -80,8 +80,11 @@ struct ControlDesign {
   bool tracks = false;                   ///< the friction, while driving
   std::uint16_t tracking_wait_periods = 0;
   std::uint8_t tracking_average_periods = 0;
+  std::uint16_t tracking_dip_periods = 0;
+  double tracking_unsettled = 0.0;  ///< part of a change that the contact has not settled from
   double tracking_weight = 0.0;     ///< of a sample averaged
   double tracking_deviation = 0.0;  ///< of a mean force, over Fc
+  double tracking_noise = 0.0;      ///< the part of it that is another in each reading
   double tracking_certain = 0.0;    ///< deviation of ln Fc up to which the drive does not dip
   double tracking_edge = 0.0;       ///< drive of a dip, over the nominal one at which sliding stops
   double gain_deviation = 0.0;      ///< of ln g, true over nominal vibration velocity, at the start

@@ -195,6 +195,17 @@ void add_notes(const SensorlessDesign& mode, const ControlDesign& design,
   }
 }
 
+/// Where the contact as believed does not settle in the time of a target.
+void add_tracking_note(const ControlDesign& design, std::vector<std::string>& notes) {
+  if (design.tracks && design.tracking_unsettled > 0.0) {
+    notes.push_back(fmt::format(
+        "The contact slides too slowly through its presliding travel: after the {} carrier periods "
+        "that a reading of the tracked friction waits, half of the shortest target's time, up to "
+        "{:.2g} % of a change is left.",
+        design.tracking_wait_periods, 100.0 * design.tracking_unsettled));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> design_notes(const ControlDesign& design) {
@@ -206,6 +217,7 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
         "{:.4g} N: what acts in one carrier period takes {:.2g} of the mean velocity away.",
         design.bias->natural, design.bias->limit_N, design.bias->part));
   }
+  add_tracking_note(design, notes);
   return notes;
 }
 

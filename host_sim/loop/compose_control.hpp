@@ -48,7 +48,8 @@ class InProcess : public ControlPort {
 
   std::optional<FrictionBelief> friction() const override {
     if constexpr (std::is_same_v<typename Parts::Relearning, control::FrictionTracking<Scalar>>) {
-      return friction_belief(controller_.friction_level(), controller_.relearning());
+      return friction_belief(controller_.friction_level(), controller_.relearning(),
+                             controller_.disagreement() == control::Limit::none);
     }
     return std::nullopt;
   }

@@ -49,11 +49,15 @@ double real_of(const numeric::Floating<Scalar>& x) {
 
 }  // namespace friction_belief_detail
 
+/// @param agrees  the loop has settled where it is believed to; else nothing is sure
 template <class Scalar>
 FrictionBelief friction_belief(const control::FrictionLevel<Scalar>& level,
-                               const control::FrictionTracking<Scalar>& tracking) {
+                               const control::FrictionTracking<Scalar>& tracking, bool agrees) {
   using namespace friction_belief_detail;
-  const auto& variance = tracking.variance();
+  constexpr Scalar most = control::FrictionTracking<Scalar>::Estimate::most_variance();
+  const auto variance =
+      agrees ? tracking.variance()
+             : typename control::FrictionTracking<Scalar>::Estimate::Each{most, most, most};
   const double inverse_gain = real_of<Scalar>(tracking.inverse_gain());
   return {believed(numeric::to_real(level.force()), numeric::to_real(variance.force)),
           believed(real_of<Scalar>(tracking.contact()) * inverse_gain,

@@ -19,8 +19,10 @@ namespace sonoglide::control {
 /// the filter leaves out. So readings that are taken far from the truth do not make it certain.
 ///
 /// A reading beyond three deviations, |e| > 3 √S, shows that the friction has changed: Fc is then less
-/// certain by e², and R has (|s| e²/2)² more. Each reading that is taken in makes every constant less certain by 0.002, so that no
-/// constant is ever known for good.
+/// certain by e², and R has (|s| e²/2)² more. If it is the first one at another request, it may as well be
+/// that Kt or g is another than was known at the start: they become as uncertain as there, g by e² more.
+/// Each reading that is taken in makes every constant less certain by 0.002, so that no constant is ever
+/// known for good.
 ///
 /// All are of the order of 1 or below. In fixed point nothing reaches 1: readings are taken by halves
 /// (h/2, e/2, R/4, S/4), and variances are at most 1/2. Products are too small by less than two units
@@ -63,16 +65,27 @@ class FrictionEstimate {
     force_stiffness_ = {};
     force_gain_ = {};
     stiffness_gain_ = {};
+    contradicted_ = false;
   }
 
   /// Of ln Fc, ln Kt and ln g.
   const Each& variance() const { return variance_; }
 
+  /// The most that a variance may be.
+  static constexpr Scalar most_variance() { return numeric::from_real<Scalar>(0.5); }
+
+  /// Readings at different requests have contradicted Kt or g as they were at the start.
+  bool contradicted() const { return contradicted_; }
+
+  /// Fc is less certain.
+  void widen(Scalar variance) { variance_.force = limited(variance_.force + variance); }
+
   /// Weighs a reading.
   /// @param reading  its slope, deviation and innovation, by halves
   /// @param wanted  take it in where it shows nothing new, too
+  /// @param elsewhere  it is the first one at another request
   /// @return false: it is not taken in
-  bool weigh(const Reading& reading, bool wanted) {
+  bool weigh(const Reading& reading, bool wanted, bool elsewhere) {
     constexpr Scalar ninth = numeric::from_real<Scalar>(1.0 / 9.0);
     const Scalar square = times(reading.innovation, reading.innovation);
     gain_ = product(reading.slope);
@@ -84,7 +97,13 @@ class FrictionEstimate {
     age();
     if (changed) {
       const Scalar most = numeric::min(square, numeric::from_real<Scalar>(0.1));
-      variance_.force = limited(variance_.force + numeric::twice(numeric::twice(most)));
+      const Scalar whole = numeric::twice(numeric::twice(most));
+      widen(whole);
+      if (elsewhere) {
+        contradicted_ = true;
+        variance_.stiffness = limited(numeric::max(variance_.stiffness, parameters_.stiffness));
+        variance_.gain = limited(numeric::max(variance_.gain, parameters_.gain) + whole);
+      }
     }
     const Scalar bent = changed ? times(reading.slope.stiffness, numeric::twice(square)) : Scalar{};
     gain_ = product(reading.slope);
@@ -120,9 +139,7 @@ class FrictionEstimate {
   static Scalar dot(const Each& a, const Each& b) {
     return times(a.force, b.force) + times(a.stiffness, b.stiffness) + times(a.gain, b.gain);
   }
-  static Scalar limited(Scalar variance) {
-    return numeric::min(variance, numeric::from_real<Scalar>(0.5));
-  }
+  static Scalar limited(Scalar variance) { return numeric::min(variance, most_variance()); }
 
   /// P h
   Each product(const Each& h) const {
@@ -181,6 +198,7 @@ class FrictionEstimate {
   Each gain_{};          ///< P h, then t
   Scalar deviations_{};  ///< e/√S; in fixed point a quarter of it
   Scalar residual_{};
+  bool contradicted_ = false;
 };
 
 }  // namespace sonoglide::control

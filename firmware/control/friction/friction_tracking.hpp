@@ -3,34 +3,36 @@
 
 #include <cstdint>
 
+#include "firmware/control/friction/friction_drift.hpp"
 #include "firmware/control/friction/friction_estimate.hpp"
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/friction/half_logarithm.hpp"
+#include "firmware/control/friction/map_slopes.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
+#include "firmware/control/friction/steady_mean.hpp"
 #include "firmware/control/interface/part_name.hpp"
-#include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
 
-/// Takes a reading wherever the request has stood still for a while, and weighs it in a
-/// FrictionEstimate: the mean force, over that of the map at the request, which is the commanded
-/// ratio. A reading is taken in where the request is another than that of the last one, or where it
-/// shows that the friction has changed.
+/// Takes readings (SteadyMean) wherever the request stands still: the mean force, over that of the map at
+/// the request, which is the commanded ratio. The first one at a request is weighed in a FrictionEstimate.
+/// Those that follow it there move Fc by what they show beyond the first one (FrictionDrift): the error
+/// of the map, of at most two deviations, is the same in all of them. One that shows far more is weighed
+/// again, as a friction that has jumped.
 ///
 /// Where Fc is too uncertain, which it is at the start, the request dips once: to `edge` of the
 /// sliding speed. There the sliding never reverses, so that the mean force is Fc, whatever contact
 /// stiffness and gain are. It dips too where the drive has come to its limit, because the reading
 /// then is of no commanded ratio. The controller is in State::relearning meanwhile.
 ///
-/// Periods: the request has to stand for `wait`, and the reading is averaged over `average` more. It
-/// is weighed in four steps, one a period; the request then stands for two, in which level, map and
-/// integral change. A dip in which no reading is complete within four times as long ends.
+/// A reading is weighed in five steps, one a period, or moves Fc in one; the request then stands for two,
+/// in which level, map and integral change. A dip whose reading moves Fc by more than half has another
+/// one. A dip in which no reading is complete within dip_periods ends.
 ///
-/// Ratios on base 2. Speeds and requests: base the peak vibration velocity at full drive, or the range
-/// of the vibration sensor.
+/// Ratios on base 2. Speeds and requests: base the peak vibration velocity at full drive.
 template <class ScalarT>
 class FrictionTracking {
  public:
@@ -39,33 +41,34 @@ class FrictionTracking {
   using Estimate = FrictionEstimate<Scalar>;
 
   struct Parameters {
-    std::uint16_t wait_periods;
-    std::uint8_t average_periods;         ///< >= 1
-    numeric::Accumulator<Scalar> weight;  ///< 1/average_periods
-    Scalar deviation;                     ///< of a mean force, a quarter of it over Fc
-    Scalar certain;  ///< variance of ln Fc up to which the request does not dip
-    Scalar edge;     ///< request of a dip, over the nominal one at which the sliding first stops
+    typename SteadyMean<Scalar>::Parameters mean;
+    Scalar deviation;           ///< of a mean force, a quarter of it over Fc
+    Scalar noise;               ///< the part of it that is another in each reading, likewise
+    Scalar certain;             ///< variance of ln Fc up to which the request does not dip
+    std::uint16_t dip_periods;  ///< after which a dip ends that has no reading
+    Scalar edge;  ///< request of a dip, over the nominal one at which the sliding first stops
     typename Estimate::Parameters start;
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
-      visit("wait_periods", self.wait_periods);
-      visit("average_periods", self.average_periods);
-      visit("weight", self.weight);
+      visit("mean", self.mean);
       visit("deviation", self.deviation);
+      visit("noise", self.noise);
       visit("certain", self.certain);
+      visit("dip_periods", self.dip_periods);
       visit("edge", self.edge);
       visit("start", self.start);
     }
   };
 
   explicit FrictionTracking(const Parameters& parameters)
-      : parameters_(parameters), estimate_(parameters.start) {
+      : parameters_(parameters), mean_(parameters.mean), estimate_(parameters.start) {
     restart();
   }
 
   void restart() {
     estimate_.restart();
+    drift_.begin(Scalar{});
     contact_ = unity();
     inverse_gain_ = unity();
     taken_at_ = {};
@@ -76,9 +79,8 @@ class FrictionTracking {
   /// @return true if `adapt` would have been next
   bool interrupt() {
     const bool learnt = phase_ == Phase::adapt;
-    begun_ = false;
     dips_ = false;
-    phase_ = Phase::watch;
+    phase_ = Phase::start;
     return learnt;
   }
 
@@ -96,22 +98,42 @@ class FrictionTracking {
       case Phase::watch:
         watch(now);
         break;
-      case Phase::reversal_slope:
-        reversal_slope(now.speed, map);
+      case Phase::start:
+        dip(uncertain());
+        begin(now.requested);
+        break;
+      case Phase::prepare:
+        prepare();
+        slopes_.begin(mapped(), map, now.speed);
+        break;
+      case Phase::velocity_slope:
+        reading_.slope.gain = slopes_.of_velocity(map, now.speed);
+        if (Scalar{} < reading_.slope.gain) {
+          begin(now.requested);
+        } else {
+          phase_ = Phase::stiffness_slope;
+        }
         break;
       case Phase::stiffness_slope:
-        stiffness_slope(now.speed, map);
+        reading_.slope.stiffness = slopes_.of_stiffness(map, now.speed, reading_.slope.gain);
+        reading_.slope.force = one_half() - reading_.slope.stiffness;
+        phase_ = Phase::weigh;
         break;
       case Phase::weigh:
-        weigh();
+        weigh(now.requested);
         break;
       case Phase::learn:
         learn();
         return Task::learn;
+      case Phase::follow:
+        change_force(drift_.follow(error_));
+        return Task::learn;
       case Phase::adapt:
-        dip(!dips_ && uncertain());
-        begin(now.requested);
+        conclude(now);
         return Task::adapt;
+      case Phase::resume:
+        resume(now);
+        break;
     }
     return dips_ ? Task::pause : Task::regulate;
   }
@@ -125,9 +147,7 @@ class FrictionTracking {
     if (dips_) {
       regulator.restart(change.target);
     } else {
-      const Scalar unexplained = numeric::twice(estimate_.residual());
-      regulator.shift(change.target - numeric::rough_product(change.target, unexplained),
-                      change.commanded);
+      regulator.shift(change.target - unexplained(change.target), change.commanded);
     }
   }
 
@@ -137,166 +157,268 @@ class FrictionTracking {
     feedforward.set_friction(level, contact_, inverse_gain_);
   }
 
-  /// Variances of ln Fc, ln Kt and ln g.
-  const typename Estimate::Each& variance() const { return estimate_.variance(); }
+  /// The filter is linear, the map is not: at the request that stands the adapted map has another ratio
+  /// than the filter expects. The integral takes the difference, so that the request does not jump
+  /// by it.
+  template <class Regulator, class Feedforward>
+  void align(Regulator& regulator, const Feedforward& map, Scalar speed, Scalar requested) {
+    if (Scalar{} < expected_) {
+      constexpr Scalar most = numeric::from_real<Scalar>(1.0 / 16.0);
+      const Scalar beyond = half_log(requested, map.amplitude(expected_, speed));
+      const Scalar quarter =
+          numeric::rough_product(numeric::rough_product(reading_.slope.gain, beyond), expected_);
+      regulator.shift(numeric::clamp_magnitude(numeric::twice(numeric::twice(quarter)), most),
+                      Scalar{});
+      expected_ = {};
+    }
+  }
+
+  /// Variances of ln Fc, ln Kt and ln g. Fc may have changed since the last reading as much as it did
+  /// before it, or as the request has moved since, or by less than a reading shows; and the error of the
+  /// map may be one of Fc. Where readings contradict what was known of Kt and g, neither is sure.
+  typename Estimate::Each variance() const {
+    typename Estimate::Each all = estimate_.variance();
+    if (estimate_.contradicted()) {
+      all.stiffness = all.gain = Estimate::most_variance();
+    }
+    all.force = all.force + drift_.variance() + Drift::square_of_twice(noise_) +
+                Drift::square_of_twice(drift_.base()) + Drift::square_of_twice(mean_.moved());
+    return all;
+  }
   /// Kt g over the nominal one, and 1/g.
   const numeric::Floating<Scalar>& contact() const { return contact_; }
   const numeric::Floating<Scalar>& inverse_gain() const { return inverse_gain_; }
 
  private:
+  using Drift = FrictionDrift<Scalar>;
   using Floating = numeric::Floating<Scalar>;
-  enum class Phase : std::uint8_t { watch, reversal_slope, stiffness_slope, weigh, learn, adapt };
+  enum class Phase : std::uint8_t {
+    watch,
+    start,
+    prepare,
+    velocity_slope,
+    stiffness_slope,
+    weigh,
+    learn,
+    follow,
+    adapt,
+    resume
+  };
+  /// What the readings at a request are compared with.
+  enum class Base : std::uint8_t {
+    none,   ///< the first one is to be weighed
+    first,  ///< the first one after that
+    known   ///< what the first one has left
+  };
+
+  static constexpr std::uint32_t shown_after = 3;  ///< periods, of a request
 
   static constexpr Scalar one_half() { return numeric::from_real<Scalar>(0.5); }
   static Floating unity() { return numeric::rescaled(numeric::floating(one_half()), 1); }
 
-  /// By more than 2^-bits of it.
-  static bool differs(Scalar request, Scalar from, int bits) {
-    return numeric::scale_by_power_of_two(from, -bits) < numeric::abs(request - from);
+  static bool another(Scalar request, Scalar than) {
+    return SteadyMean<Scalar>::differs(request, than, numeric::from_real<Scalar>(1.0 / 16.0));
   }
 
   bool uncertain() const { return parameters_.certain < estimate_.variance().force; }
 
   void dip(bool dips) {
     dips_ = dips;
-    dip_periods_ = 0;
+    count_ = 0;
   }
 
   /// The readings begin anew, with the request that stands.
   void begin(Scalar requested) {
-    stands_at_ = requested;
-    count_ = 0;
-    measured_ = {};
-    commanded_ = {};
-    limited_ = false;
+    mean_.begin(requested);
     phase_ = Phase::watch;
   }
 
   void watch(const FrictionReading<Scalar>& now) {
-    if (!begun_) {
-      begun_ = true;
-      dip(uncertain());
-      begin(now.requested);
-      return;
-    }
-    if (differs(now.requested, stands_at_, 4)) {
-      begin(now.requested);
-    }
     if (dips_) {
-      ++dip_periods_;
-      dips_ = dip_periods_ < 4U * whole();
-    }
-    ++count_;
-    if (count_ > parameters_.wait_periods) {
-      measured_ += numeric::accumulate(now.measured) * parameters_.weight;
-      commanded_ += numeric::accumulate(now.commanded) * parameters_.weight;
-      limited_ = limited_ || !now.followed;
-      if (count_ >= whole()) {
-        compare();
+      ++count_;
+      dips_ = count_ < parameters_.dip_periods;
+      if (another(now.requested, request(now.speed))) {
+        mean_.begin(now.requested);  // the drive is on its way
+        return;
       }
+    }
+    if (mean_.take(now)) {
+      compare(now);
     }
   }
 
-  std::uint32_t whole() const {
-    return std::uint32_t{parameters_.wait_periods} + parameters_.average_periods;
+  /// What the drive stands at.
+  struct Place {
+    Scalar request;
+    Scalar ratio;  ///< measured, which the feedback holds at its target
+    Scalar speed;
+  };
+
+  /// A request that friction alone has moved is at the same place: the map's error is the same there.
+  static bool elsewhere(const Place& now, const Place& before) {
+    return another(now.request, before.request) &&
+           (another(now.ratio, before.ratio) || another(now.speed, before.speed));
   }
 
   /// A reading is complete.
-  void compare() {
-    wanted_ = dips_ || differs(stands_at_, taken_at_, 6);
-    if (limited_ && !dips_) {
-      dip(wanted_);
-      taken_at_ = stands_at_;
-      begin(stands_at_);
+  void compare(const FrictionReading<Scalar>& now) {
+    place_ = {now.requested, mean_.measured(), now.speed};
+    const bool moved = elsewhere(place_, taken_at_);
+    if (mean_.limited() && !dips_) {
+      dip(moved);
+      taken_at_ = place_;
+      begin(now.requested);
       return;
     }
-    ratio_ = dips_ ? one_half() : numeric::rounded<Scalar>(commanded_);
-    reading_.innovation = half_log(numeric::rounded<Scalar>(measured_), ratio_);
+    constexpr Scalar near_one = numeric::from_real<Scalar>(0.49);
+    wanted_ = dips_ || moved || base_ == Base::none;
+    tests_map_ = wanted_ && mapped() < near_one;
+    reading_.innovation = half_log(mean_.measured(), mapped());
+    if (base_ == Base::first) {
+      base_ = Base::known;
+      drift_.begin(explained(reading_.innovation));
+      wanted_ = wanted_ || drift_.base() != reading_.innovation;
+    }
+    if (!wanted_) {
+      constexpr Scalar jump = numeric::from_real<Scalar>(1.0 / 32.0);
+      const Scalar shown = drift_.shown(reading_.innovation);
+      if (numeric::abs(shown) < jump) {
+        follow(shown, now.requested);
+        return;
+      }
+    }
+    phase_ = Phase::prepare;
+  }
+
+  void follow(Scalar shown, Scalar requested) {
+    if (drift_.moves(shown, noise_)) {
+      error_ = Drift::error(shown, noise_, reading_.slope.force);
+      phase_ = Phase::follow;
+    } else {
+      drift_.rest();
+      taken_at_ = place_;
+      begin(requested);
+    }
+  }
+
+  /// Ratio of the map where the drive stands; a dip has that of no drive.
+  Scalar mapped() const { return dips_ ? one_half() : mean_.commanded(); }
+
+  void prepare() {
     constexpr Scalar least = numeric::from_real<Scalar>(0x1p-12);
-    reading_.deviation =
-        numeric::limited_product(parameters_.deviation, inverse_of(numeric::max(ratio_, least)));
+    const Floating inverse = inverse_of(numeric::max(mapped(), least));
+    reading_.deviation = numeric::limited_product(parameters_.deviation, inverse);
+    noise_ = numeric::limited_product(parameters_.noise, inverse);
     reading_.slope = {one_half(), Scalar{}, Scalar{}};
-    phase_ = dips_ ? Phase::weigh : Phase::reversal_slope;
+    estimate_.widen(drift_.variance());
+    phase_ = dips_ ? Phase::weigh : Phase::velocity_slope;
   }
 
-  /// Half of w, from two places of the inverse map.
-  template <class Feedforward>
-  void reversal_slope(Scalar speed, const Feedforward& map) {
-    constexpr Scalar step = numeric::from_real<Scalar>(1.0 / 64.0);
-    const bool up = ratio_ < one_half() - step;
-    const Scalar beside = up ? ratio_ + step : ratio_ - step;
-    amplitude_ = map.amplitude(ratio_, speed);
-    const Scalar other = map.amplitude(beside, speed);
-    const Scalar change =
-        numeric::half_difference(up ? amplitude_ : other, up ? other : amplitude_);
-    if (!(Scalar{} < change)) {
-      begin(stands_at_);  // both beyond the largest drive
-      return;
-    }
-    const Floating relative = numeric::quotient(
-        numeric::floating(numeric::half_sum(amplitude_, other)), numeric::floating(change));
-    const Floating per_ratio =
-        numeric::quotient(numeric::floating(numeric::half(step)),
-                          numeric::floating(numeric::half_sum(ratio_, beside)));
-    reading_.slope.gain =
-        -numeric::limited_product(one_half(), numeric::product(relative, per_ratio));
-    phase_ = Phase::stiffness_slope;
-  }
-
-  /// Half of s, from the inverse map of a stiffer contact.
-  template <class Feedforward>
-  void stiffness_slope(Scalar speed, const Feedforward& map) {
-    const Scalar stiffer = map.stiffer_amplitude(ratio_, speed);
-    const Scalar change = numeric::max(Scalar{}, numeric::half_difference(amplitude_, stiffer));
-    constexpr double per_log = 2.0 / 0.22314355131420976;  // ln 1.25
-    constexpr Scalar factor = numeric::from_real<Scalar>(per_log / 16.0);
-    const Scalar part = numeric::limited_product(
-        change, numeric::rescaled(inverse_of(numeric::half_sum(amplitude_, stiffer)), 4));
-    reading_.slope.stiffness =
-        numeric::rough_product(reading_.slope.gain, numeric::rough_product(factor, part));
-    reading_.slope.force = one_half() - reading_.slope.stiffness;
-    phase_ = Phase::weigh;
-  }
-
-  void weigh() {
-    if (estimate_.weigh(reading_, wanted_)) {
+  void weigh(Scalar requested) {
+    if (estimate_.weigh(reading_, wanted_, tests_map_)) {
       phase_ = Phase::learn;
     } else {
-      begin(stands_at_);
+      begin(requested);
     }
   }
 
   void learn() {
     const typename Estimate::Each moved = estimate_.take();
-    force_change_ = exponential_of_twice(moved.force);
     contact_ = numeric::product(numeric::product(contact_, exponential_of_twice(moved.stiffness)),
                                 exponential_of_twice(moved.gain));
     inverse_gain_ = numeric::product(inverse_gain_, exponential_of_twice(-moved.gain));
-    if (!dips_) {  // the request before a dip asks for no other one
-      taken_at_ = stands_at_;
+    Scalar force = moved.force;
+    if (dips_) {
+      base_ = Base::none;
+      drift_.begin(Scalar{});
+    } else if (small(moved)) {
+      base_ = Base::known;
+      drift_.goes_on(explained(estimate_.residual()));
+      force = drift_.follow(force);
+    } else {
+      base_ = Base::first;
+      drift_.begin(explained(estimate_.residual()));
     }
+    far_ = numeric::from_real<Scalar>(0.25) < numeric::abs(force);
+    change_force(force);
+    if (!dips_) {
+      taken_at_ = place_;  // the request before a dip asks for no other one
+      const Scalar measured =
+          numeric::limited_product(mean_.measured(), exponential_of_twice(-force));
+      expected_ = measured - unexplained(measured);
+    }
+  }
+
+  /// The part of an innovation that an error of the map may be.
+  Scalar explained(Scalar innovation) const {
+    return numeric::clamp_magnitude(innovation, numeric::twice(reading_.deviation));
+  }
+
+  /// Of changes by which the filter, which is linear, leaves no error of the map.
+  static bool small(const typename Estimate::Each& moved) {
+    const auto below = [](Scalar x, double most) {
+      return numeric::abs(x) < numeric::from_real<Scalar>(most);
+    };
+    return below(moved.force, 1.0 / 32.0) && below(moved.stiffness, 1.0 / 64.0) &&
+           below(moved.gain, 1.0 / 64.0);
+  }
+
+  /// @param half  of the change of ln Fc
+  void change_force(Scalar half) {
+    force_change_ = exponential_of_twice(half);
     phase_ = Phase::adapt;
   }
 
+  /// Part of a ratio that the map does not explain.
+  Scalar unexplained(Scalar ratio) const {
+    return numeric::twice(numeric::rough_product(ratio, drift_.base()));
+  }
+
+  void conclude(const FrictionReading<Scalar>& now) {
+    if (base_ == Base::known) {
+      count_ = 0;
+      phase_ = Phase::resume;
+    } else if (dips_ && far_) {
+      dip(true);
+      mean_.go_on(now.requested);
+      phase_ = Phase::watch;
+    } else {
+      dip(!dips_ && uncertain());
+      begin(now.requested);
+    }
+  }
+
+  /// The next reading begins as soon as the sensor shows what the adapted map has requested.
+  void resume(const FrictionReading<Scalar>& now) {
+    if (another(now.requested, mean_.request())) {
+      begin(now.requested);
+    } else if (++count_ == shown_after) {
+      mean_.go_on(now.requested);
+      phase_ = Phase::watch;
+    }
+  }
+
   Parameters parameters_;
+  SteadyMean<Scalar> mean_;
+  MapSlopes<Scalar> slopes_;
   Estimate estimate_;
+  Drift drift_;
   Floating contact_{};
   Floating inverse_gain_{};
   Floating force_change_{};
   typename Estimate::Reading reading_{};
-  Scalar stands_at_{};  ///< request, within a sixteenth
-  Scalar taken_at_{};   ///< that of the last reading taken in
-  Scalar ratio_{};
-  Scalar amplitude_{};
-  numeric::Accumulator<Scalar> measured_{};
-  numeric::Accumulator<Scalar> commanded_{};
-  std::uint32_t count_ = 0;
-  std::uint32_t dip_periods_ = 0;
-  Phase phase_ = Phase::watch;
-  bool begun_ = false;
+  Scalar noise_{};     ///< half of that of a reading's logarithm
+  Scalar error_{};     ///< half of that of ln Fc
+  Scalar expected_{};  ///< ratio of the adapted map at the request, as the filter has it; or 0
+  Place place_{};      ///< of the reading that is complete
+  Place taken_at_{};   ///< of the last one that was weighed, or showed nothing new
+  std::uint32_t count_ = 0;  ///< periods of a dip, or since the map adapted
+  Phase phase_ = Phase::start;
+  Base base_ = Base::none;
   bool dips_ = false;
-  bool wanted_ = false;
-  bool limited_ = false;
+  bool wanted_ = false;     ///< the reading is taken in where it shows nothing new, too
+  bool tests_map_ = false;  ///< it is the first one at another request, and depends on Kt and g
+  bool far_ = false;        ///< the last change of Fc, from where the filter is not linear
 };
 
 }  // namespace sonoglide::control

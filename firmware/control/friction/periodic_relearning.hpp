@@ -53,6 +53,11 @@ class RelearningPart {
   static void adapt(Feedforward& feedforward, const FrictionLevel<Scalar>& level) {
     feedforward.set_friction(level);
   }
+
+  /// Tells the feedback what the adapted map has at the request that stands.
+  template <class Regulator, class Feedforward>
+  static constexpr void align(Regulator& /*regulator*/, const Feedforward& /*map*/,
+                              Scalar /*speed*/, Scalar /*requested*/) {}
 };
 
 /// The friction force is not learnt again while the drive is on.

@@ -91,6 +91,7 @@ struct Design {
   std::uint16_t tracking_wait_periods = 12;
   std::uint8_t tracking_average_periods = 8;
   double tracking_deviation = 0.003;
+  double tracking_noise = 0.0005;
   double tracking_certain = 0.01;
   double gain_deviation = 0.02;
   double drive_limit = 1.0;
@@ -124,13 +125,16 @@ void fill(const Design& design, typename FrictionTracking<S>::Parameters& parame
   const auto variance = [](double deviation) {
     return numeric::from_real<S>(deviation * deviation);
   };
-  parameters = {design.tracking_wait_periods,
-                design.tracking_average_periods,
-                numeric::from_real<numeric::Accumulator<S>>(1.0 / design.tracking_average_periods),
-                numeric::from_real<S>(design.tracking_deviation / 4.0),
-                variance(design.tracking_certain),
-                numeric::from_real<S>(1.0 - 3.0 * design.gain_deviation),
-                {variance(0.3), variance(0.5), variance(design.gain_deviation)}};
+  parameters = {
+      {design.tracking_wait_periods, design.tracking_average_periods,
+       numeric::from_real<numeric::Accumulator<S>>(1.0 / design.tracking_average_periods)},
+      numeric::from_real<S>(design.tracking_deviation / 4.0),
+      numeric::from_real<S>(design.tracking_noise / 4.0),
+      variance(design.tracking_certain),
+      static_cast<std::uint16_t>(4 *
+                                 (design.tracking_wait_periods + design.tracking_average_periods)),
+      numeric::from_real<S>(1.0 - 3.0 * design.gain_deviation),
+      {variance(0.3), variance(0.5), variance(design.gain_deviation)}};
 }
 
 template <class S>

@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "closed_loop.hpp"
+#include "friction/tracked_loop.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::friction_tracking_test {
 namespace {
 
-using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>;
 
 Matrix inverse(Matrix a) {
@@ -81,7 +81,7 @@ TYPED_TEST(FrictionEstimateTest, IsTheMaximumAPosterioriEstimateOfABatch) {
                                  scaled<TypeParam>(slope[2] / 2)},
                                 scaled<TypeParam>(deviation / 2),
                                 scaled<TypeParam>((shown - expected) / 2)},
-                               true));
+                               true, false));
     const auto moved = estimate.take();
     found[0] += 2.0 * real(moved.force);
     found[1] += 2.0 * real(moved.stiffness);
@@ -108,9 +108,9 @@ TYPED_TEST(FrictionEstimateTest, LeavesOutWhatShowsNothingNew) {
       {scaled<TypeParam>(0.55), scaled<TypeParam>(-0.05), scaled<TypeParam>(-0.2)},
       scaled<TypeParam>(0.002),
       scaled<TypeParam>(0.01)};
-  EXPECT_FALSE(estimate.weigh(reading, false));
+  EXPECT_FALSE(estimate.weigh(reading, false, false));
   reading.innovation = scaled<TypeParam>(0.2);  // a friction that has become half as large again
-  EXPECT_TRUE(estimate.weigh(reading, false));
+  EXPECT_TRUE(estimate.weigh(reading, false, false));
   const auto moved = estimate.take();
   EXPECT_NEAR(2.0 * numeric::to_real(moved.force), 0.4 / 1.1, 0.04);
 }
@@ -119,39 +119,11 @@ template <class S>
 class FrictionTrackingTest : public testing::Test {
  protected:
   using Loop = ClosedLoop<TrackingParts<S>>;
-
-  static Design trusting() {
-    Design design;
-    design.agreement = 0.0;
-    design.implausible_periods = 60;
-    design.friction_force = 0.3;
-    return design;
-  }
-
-  /// Deviations by which ln Fc, ln Kt and ln g are off.
-  static Vector off(const Loop& loop, const Design& design, const Contact& truth) {
-    const auto& tracking = loop.controller.relearning();
-    const auto real_of = [](const numeric::Floating<S>& x) {
-      if constexpr (numeric::is_fixed_point_v<S>) {
-        return std::ldexp(numeric::to_real(x.mantissa), x.exponent);
-      } else {
-        return numeric::to_real(x);
-      }
-    };
-    const double gain = 1.0 / real_of(tracking.inverse_gain());
-    const double stiffness = design.contact_force * real_of(tracking.contact()) / gain;
-    const double force = numeric::to_real(loop.controller.friction_level().force());
-    const auto& variance = tracking.variance();
-    return {
-        std::log(force / truth.friction_force) / std::sqrt(numeric::to_real(variance.force)),
-        std::log(stiffness / truth.contact_force) / std::sqrt(numeric::to_real(variance.stiffness)),
-        std::log(gain / truth.gain) / std::sqrt(numeric::to_real(variance.gain))};
-  }
 };
 TYPED_TEST_SUITE(FrictionTrackingTest, Scalars);
 
 TYPED_TEST(FrictionTrackingTest, HoldsTheTrueRatioOfAFrictionThatJumps) {
-  const Design design = this->trusting();
+  const Design design = trusting();
   for (const double factor : {0.5, 1.5}) {
     Contact contact{0.3 / 1.3, 1.0108 / 1.5, 1.0};
     typename TestFixture::Loop loop(design, contact);
@@ -181,7 +153,7 @@ TYPED_TEST(FrictionTrackingTest, IsAsCertainAsItIsRight) {
     std::array<int, 3> far{};
     int right = 0;
     for (int i = 0; i < loops; ++i) {
-      Design design = this->trusting();
+      Design design = trusting();
       design.gain_deviation = gain_range;
       design.contact_force = 0.3 * std::exp(between(std::log(0.2), std::log(30.0)));
       const Contact contact{0.3 / between(0.7, 1.3), design.contact_force / between(0.5, 1.5),
@@ -194,7 +166,7 @@ TYPED_TEST(FrictionTrackingTest, IsAsCertainAsItIsRight) {
         loop.run(120);
         right += step == 2 && std::abs(loop.ratio() - target) < 0.02 ? 1 : 0;
       }
-      const Vector deviations = this->off(loop, design, contact);
+      const Vector deviations = deviations_off(loop, design, contact);
       for (std::size_t k = 0; k < 3; ++k) {
         held[k] += std::abs(deviations[k]) < 1.96 ? 1 : 0;
         far[k] += std::abs(deviations[k]) > 4.0 ? 1 : 0;
@@ -207,6 +179,24 @@ TYPED_TEST(FrictionTrackingTest, IsAsCertainAsItIsRight) {
       EXPECT_LE(far[k], loops / 100) << gain_range << " " << k;
     }
   }
+}
+
+/// Readings at different requests that no Kt and g of before explain: neither is sure any more.
+TYPED_TEST(FrictionEstimateTest, IsNotSureOfWhatAReadingElsewhereContradicts) {
+  using Estimate = FrictionEstimate<TypeParam>;
+  Estimate estimate({scaled<TypeParam>(1e-4), scaled<TypeParam>(0.01), scaled<TypeParam>(1e-4)});
+  const typename Estimate::Reading reading{
+      {scaled<TypeParam>(0.55), scaled<TypeParam>(-0.05), scaled<TypeParam>(-0.2)},
+      scaled<TypeParam>(0.002),
+      scaled<TypeParam>(0.1)};
+  Estimate jumped = estimate;
+  EXPECT_TRUE(jumped.weigh(reading, false, false));
+  EXPECT_FALSE(jumped.contradicted());
+  EXPECT_TRUE(estimate.weigh(reading, true, true));
+  EXPECT_TRUE(estimate.contradicted());
+  EXPECT_LT(numeric::to_real(estimate.take().gain), 10.0 * numeric::to_real(jumped.take().gain));
+  estimate.restart();
+  EXPECT_FALSE(estimate.contradicted());
 }
 
 }  // namespace
