@@ -1,5 +1,6 @@
 #include "host_sim/unit/unit_link.hpp"
 
+#include <optional>
 #include <random>
 
 #include "host_sim/process/printable.hpp"
@@ -13,6 +14,14 @@ std::uint16_t any_number() {
   return static_cast<std::uint16_t>(std::random_device{}());
 }
 
+/// Of the request before, where this one was refused as an older one.
+std::optional<std::uint32_t> last_number(const link::Frame& answer) {
+  link::Refusal refusal{};
+  const bool out_of_turn = link::read(answer, refusal) &&
+                           refusal.reason == static_cast<std::uint8_t>(link::Reason::out_of_turn);
+  return out_of_turn ? std::optional(refusal.highest) : std::nullopt;
+}
+
 }  // namespace
 
 // A number at random is hardly ever that of the last host, whose answer would come again.
@@ -22,26 +31,31 @@ UnitLink::UnitLink(SerialPort& port, std::chrono::milliseconds patience)
 }
 
 link::Frame UnitLink::exchange(link::Frame request, std::chrono::milliseconds patience) {
-  constexpr int tries = 3;
   request.sequence = ++sequence_;
+  link::Frame answer = answer_to(request, patience);
+  if (const auto last = last_number(answer)) {
+    sequence_ = static_cast<std::uint16_t>(*last + 1);
+    request.sequence = sequence_;
+    answer = answer_to(request, patience);
+  }
+  return answer;
+}
+
+link::Frame UnitLink::answer_to(const link::Frame& request, std::chrono::milliseconds patience) {
+  constexpr int tries = 3;
+  const link::WireFrame wire = link::encode(request);
+  link::Frame answer;
   for (int i = 0; i < tries; ++i) {
-    const link::WireFrame wire = link::encode(request);
     port_.send(wire.bytes.data(), wire.size);
-    link::Frame answer;
-    if (!receive(request.sequence, patience, answer)) {
-      continue;
-    }
-    link::Refusal refusal{};
-    const bool out_of_turn = link::read(answer, refusal) &&
-                             refusal.reason == static_cast<std::uint8_t>(link::Reason::out_of_turn);
-    if (!out_of_turn) {
+    if (receive(request.sequence, patience, answer)) {
       return answer;
     }
-    sequence_ = static_cast<std::uint16_t>(refusal.highest + 1);
-    request.sequence = sequence_;
   }
   if (other_version_) {
     fail("speaks another version of the link: its firmware is not of this program");
+  }
+  if (heard_frame_) {
+    fail("is a unit, but its answer comes too late");
   }
   fail(heard_bytes_ ? "answers, but not as a unit does" : "does not answer");
 }
@@ -63,6 +77,7 @@ bool UnitLink::receive(std::uint16_t sequence, std::chrono::milliseconds patienc
     heard_bytes_ = true;
     const link::Reception reception = decoder_.take(byte);
     other_version_ |= reception == link::Reception::wrong_version;
+    heard_frame_ |= reception == link::Reception::frame;
     if (reception == link::Reception::frame && decoder_.frame().sequence == sequence) {
       answer = decoder_.frame();
       return true;

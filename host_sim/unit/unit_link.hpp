@@ -45,6 +45,8 @@ class UnitLink {
  private:
   /// @return the answer to the request, whatever sequence number the latter has
   link::Frame exchange(link::Frame request, std::chrono::milliseconds patience);
+  /// Sends it up to three times. A refusal is an answer too.
+  link::Frame answer_to(const link::Frame& request, std::chrono::milliseconds patience);
   bool receive(std::uint16_t sequence, std::chrono::milliseconds patience, link::Frame& answer);
   [[noreturn]] void fail(const std::string& reason) const;
 
@@ -53,6 +55,7 @@ class UnitLink {
   link::FrameDecoder decoder_;
   std::uint16_t sequence_;
   bool heard_bytes_ = false;
+  bool heard_frame_ = false;
   bool other_version_ = false;
 };
 

@@ -6,11 +6,15 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "firmware/app/link_service.hpp"
@@ -152,6 +156,50 @@ TEST_F(ConsoleTest, ANewHostFindsTheUnitThatAnOlderOneLeft) {
   }
 }
 
+/// Answers the first copy of each request.
+class FakeUnit {
+ public:
+  /// @param answer  to the request of this number
+  FakeUnit(const PseudoTerminal& terminal, std::function<link::Frame(std::uint16_t)> answer)
+      : link_(terminal), answer_(std::move(answer)) {}
+
+ private:
+  void serve() {
+    std::uint8_t byte = 0;
+    if (link_.receive(byte) && decoder_.take(byte) == link::Reception::frame &&
+        last_ != decoder_.frame().sequence) {
+      last_ = decoder_.frame().sequence;
+      const link::WireFrame wire = link::encode(answer_(*last_));
+      for (std::size_t i = 0; i < wire.size; ++i) {
+        link_.send(wire.bytes[i]);
+      }
+    }
+  }
+
+  TerminalLink link_;
+  std::function<link::Frame(std::uint16_t)> answer_;
+  link::FrameDecoder decoder_;
+  std::optional<std::uint16_t> last_;
+  Device served_{[this] { serve(); }};
+};
+
+// It refuses the number of the new host by the last one of the old host. Either answer comes in the
+// third try.
+TEST(UnitLinkTest, IsPatientWithASlowUnitThatAnotherHostHasLeft) {
+  const PseudoTerminal terminal;
+  bool refused = false;
+  const FakeUnit unit(terminal, [&](std::uint16_t number) {
+    std::this_thread::sleep_for(5 * UnitLink::usual_patience / 2);
+    const auto out_of_turn = static_cast<std::uint8_t>(link::Reason::out_of_turn);
+    const std::uint32_t last = static_cast<std::uint16_t>(number + 7);
+    return std::exchange(refused, true)
+               ? link::frame_of(link::Telemetry{}, number)
+               : link::frame_of(link::Refusal{0x01, out_of_turn, last, last}, number);
+  });
+  SerialPort port(terminal.device());
+  EXPECT_NO_THROW(UnitLink link(port));
+}
+
 std::string failure_at(const std::string& device) {
   try {
     SerialPort port(device);
@@ -177,6 +225,15 @@ TEST(UnitLinkTest, KnowsAForeignDeviceByWhatItSays) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   });
   EXPECT_EQ(failure_at(terminal.device()), terminal.device() + ": answers, but not as a unit does");
+}
+
+TEST(UnitLinkTest, KnowsAUnitByAnswersToWhatWasAskedBefore) {
+  const PseudoTerminal terminal;
+  const FakeUnit unit(terminal, [](std::uint16_t number) {
+    return link::frame_of(link::Telemetry{}, static_cast<std::uint16_t>(number - 1));
+  });
+  EXPECT_EQ(failure_at(terminal.device()),
+            terminal.device() + ": is a unit, but its answer comes too late");
 }
 
 TEST(UnitLinkTest, KnowsAUnitOfAnotherVersion) {
