@@ -112,6 +112,13 @@ std::string report_line(const std::filesystem::path& out) {
   return fmt::format("report: {}\n", process::printable((out / "report.html").string()));
 }
 
+std::string scene_line(const std::filesystem::path& out, const output::StudyReport& found) {
+  const auto scene = found.files.find("scene.toml");
+  return scene == found.files.end() || scene->second.empty()
+             ? std::string()
+             : fmt::format("scene: {}\n", process::printable((out / scene->first).string()));
+}
+
 void add_study_options(CLI::App& command, StudyOptions& options, const std::string& contents,
                        const std::string& quiet) {
   add_output_option(command, options.out, contents);

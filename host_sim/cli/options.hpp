@@ -82,6 +82,9 @@ std::string check_whole(const std::string& text, std::uint64_t least, std::uint6
 /// Where the report in a folder is, as a line for the terminal.
 std::string report_line(const std::filesystem::path& out);
 
+/// Where the scene is that a study has written, as a line for the terminal; empty if it has none.
+std::string scene_line(const std::filesystem::path& out, const output::StudyReport& found);
+
 /// Where a study leaves its files, and whether it says so.
 struct StudyOptions {
   std::string out;  ///< empty: as output_folder() has it
@@ -107,7 +110,7 @@ void run_study(const StudyOptions& options, const std::filesystem::path& out,
   const output::StudyReport found = report(with_bar(options.quiet, compute));
   output::write(out, found);
   if (!options.quiet) {
-    fmt::print("{}{}", found.text, report_line(out));
+    fmt::print("{}{}{}", found.text, scene_line(out, found), report_line(out));
   }
 }
 

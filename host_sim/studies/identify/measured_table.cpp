@@ -118,7 +118,9 @@ std::vector<double> MeasuredTable::numbers(std::size_t column) const {
   for (std::size_t row = 0; row < found_.rows.size(); ++row) {
     const auto number = number_of(cell(row, column).text, found_.heading.separator);
     if (!number) {
-      throw error(row, column, "is no number; allowed: a finite number");
+      throw error(row, column,
+                  "is no number; allowed: a finite number, or # at the beginning of a line "
+                  "that is not read");
     }
     values[row] = *number;
   }

@@ -35,7 +35,9 @@ TEST(IdentifyFrictionCommand, WritesALawWithIntervalsAndASceneThatRuns) {
   const Outcome outcome = folder.run("identify friction f.csv --law dahl --law coulomb");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "") << "no progress bar on a pipe";
-  EXPECT_NE(outcome.out.find("report: out/f_friction/report.html"), std::string::npos);
+  EXPECT_NE(
+      outcome.out.find("scene: out/f_friction/scene.toml\nreport: out/f_friction/report.html\n"),
+      std::string::npos);
   EXPECT_NE(outcome.out.find("\nCoulomb                coulomb            along "),
             std::string::npos)
       << "as --law takes it: " << outcome.out;

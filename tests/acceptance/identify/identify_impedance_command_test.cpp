@@ -90,7 +90,7 @@ TEST(IdentifyImpedanceCommand, WithAMassWritesASceneThatRuns) {
   folder.write("z.csv", as_table());
   const Outcome outcome = folder.run("identify impedance z.csv --mass-kg 0.01");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("report: out/z_impedance/report.html"), std::string::npos);
+  EXPECT_NE(outcome.out.find("\nscene: out/z_impedance/scene.toml\nreport: "), std::string::npos);
   const auto identified = nlohmann::json::parse(folder.read("out/z_impedance/identify.json"));
   expect_circuit(identified);
   // m = N_f^2 L1.

@@ -165,8 +165,10 @@ class Columns {
 
   scene_file::SceneError unknown(const std::string& name, std::size_t index) const {
     if (const auto near = scene_file::nearest_name(name, known_names())) {
+      const std::string unit = scene::unit_of(*near);
       return table_.heading_error(
-          index, fmt::format("unknown column \"{}\"; did you mean {}?", name, *near));
+          index, fmt::format("unknown column \"{}\"; did you mean {}?{}", name, *near,
+                             unit.empty() ? "" : " It is in " + unit + "."));
     }
     return table_.heading_error(index, fmt::format("unknown column \"{}\"; allowed: {}", name,
                                                    fmt::join(known_names(), ", ")));
@@ -214,7 +216,19 @@ std::vector<double> vibrations(const Columns& columns, const std::vector<double>
   return values;
 }
 
+/// What a metal bears: fatigue strength over density and speed of sound, some 600 MPa of titanium.
+constexpr double most_of_a_metal_m_per_s = 30.0;
+
 void warn(Readings& readings) {
+  const double fastest_m_per_s = std::accumulate(
+      readings.rows.begin(), readings.rows.end(), 0.0,
+      [](double most, const Reading& row) { return std::max(most, row.vibration_m_per_s); });
+  if (fastest_m_per_s > most_of_a_metal_m_per_s) {
+    readings.warnings.push_back(
+        fmt::format("A vibration of {:g} m/s is faster than a metal bears, some {:g} m/s: is the "
+                    "column in m/s, in m and in Hz?",
+                    fastest_m_per_s, most_of_a_metal_m_per_s));
+  }
   if (readings.are_forces) {
     return;
   }

@@ -176,10 +176,15 @@ std::vector<std::string> warnings_of(const Selection& selected) {
   const Description& description = fit.description;
   const std::size_t impossible = impossible_phases(sweep, description);
   const std::size_t inside = readings_in_band(sweep, mode);
+  constexpr double least_of_ultrasound_Hz = 1000.0;
   std::vector<std::string> warnings = sweep.warnings;
   append(
       warnings,
-      {{description.fails(),
+      {{mode.resonance_Hz < least_of_ultrasound_Hz,
+        fmt::format("The resonance is at {}, which is far below ultrasound. If the numbers of the "
+                    "file are in kHz, give its frequency that unit.",
+                    formatted("_Hz", mode.resonance_Hz))},
+       {description.fails(),
         fmt::format("The circuit does not describe the sweep: what it leaves is {:.2g} % of the "
                     "readings (root mean square), and they scatter by {:.2g} % from one to the "
                     "next. The intervals allow for the misfit, but a circuit that is not the right "

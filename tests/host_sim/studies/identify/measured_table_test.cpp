@@ -54,13 +54,20 @@ TEST(MeasuredTable, PassesOverWhatIsNoTable) {
   expect_two_rows("a,b\n(Hz),(ohm)\n1,-3e3\n2.5,4\n", {"a (Hz)", "b (ohm)"});
 }
 
+TEST(MeasuredTable, PassesOverARowThatIsMadeAComment) {
+  expect_two_rows("a,b\n1,-3e3\n#3,nan\n2.5,4\n", {"a", "b"});
+}
+
 TEST(MeasuredTable, NamesThePlaceOfWhatIsWrong) {
   EXPECT_EQ(error_of("a,b\n1,2\n3,x\n"),
-            "m.csv:3:3: b: \"x\" is no number; allowed: a finite number");
+            "m.csv:3:3: b: \"x\" is no number; allowed: a finite number, or # at the "
+            "beginning of a line that is not read");
   EXPECT_EQ(error_of("a,b\n1,nan\n"),
-            "m.csv:2:3: b: \"nan\" is no number; allowed: a finite number");
+            "m.csv:2:3: b: \"nan\" is no number; allowed: a finite number, or # at the "
+            "beginning of a line that is not read");
   EXPECT_EQ(error_of("a,b\n1,inf\n"),
-            "m.csv:2:3: b: \"inf\" is no number; allowed: a finite number");
+            "m.csv:2:3: b: \"inf\" is no number; allowed: a finite number, or # at the "
+            "beginning of a line that is not read");
   EXPECT_EQ(error_of("a,b\n1,2\n3\n"),
             "m.csv:3:2: b: cells on this line: 1; allowed: one for each of the 2 columns");
   EXPECT_EQ(error_of("a,b\n").substr(0, 20), "m.csv:1:1: heading: ");

@@ -113,8 +113,19 @@ TEST(Readings, HeadingsAreRefusedWithWhatIsAllowed) {
                  "1:26", "twice");
   EXPECT_NE(refusal("sliding_velocity_mm_per_s,vibration_velocity_m_per_s,friction_ratio\n"
                     "10,0.1,0.2\n")
-                .find("did you mean sliding_velocity_m_per_s?"),
+                .find("did you mean sliding_velocity_m_per_s? It is in m/s."),
             std::string::npos);
+}
+
+TEST(Readings, WarnOfAVibrationThatNoMetalBears) {
+  const auto warnings = [](const std::string& rows) {
+    const std::string names =
+        "sliding_velocity_m_per_s,vibration_velocity_m_per_s,friction_force_N\n";
+    return read_readings({"f.csv", names + rows}).warnings;
+  };
+  EXPECT_TRUE(warnings("0.01,0.1,0.2\n0.02,10,0.3\n").empty());
+  ASSERT_EQ(warnings("10,100,0.2\n20,100,0.3\n").size(), 1U);
+  EXPECT_NE(warnings("10,100,0.2\n20,100,0.3\n")[0].find("100 m/s is faster"), std::string::npos);
 }
 
 TEST(Readings, MayHaveTheirUnitsInBracketsOrOnALineBelow) {

@@ -341,6 +341,17 @@ bool warns(const ImpedanceStudy& result, const std::string& of) {
                      [&](const std::string& each) { return each.find(of) != std::string::npos; });
 }
 
+TEST(Study, WarnsOfAResonanceThatMayBeInKilohertz) {
+  const Sweep sweep = exact_sweep(published_piece(), 110e3, 117e3, 201);
+  const std::string warning = "far below ultrasound";
+  EXPECT_FALSE(warns(study("x", sweep, {}), warning));
+  Sweep in_kHz = sweep;
+  for (double& frequency_Hz : in_kHz.frequency_Hz) {
+    frequency_Hz *= 1e-3;
+  }
+  EXPECT_TRUE(warns(study("x", in_kHz, {}), warning));
+}
+
 /// A ripple along the sweep that no circuit has.
 TEST(Study, WarnsOfMisfitAndAllowsForIt) {
   Sweep sweep = exact_sweep(published_langevin(), 27e3, 31.5e3, 200);
