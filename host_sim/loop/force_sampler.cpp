@@ -12,6 +12,8 @@ namespace {
 
 constexpr double least_per_period = 64.0;
 constexpr double least_per_time_constant = 10.0;
+/// Behind a faster filter a sample is the mean over this part of a period, which is as good as a point.
+constexpr double most_per_period = 8192.0;
 
 /// Between two samples.
 int intervals_of(const scene::Scene& scene) {
@@ -21,7 +23,8 @@ int intervals_of(const scene::Scene& scene) {
   }
   const double time_constants =
       numeric::two_pi * *sensor.filter_Hz / scene.drive->frequency_Hz;  // in a period
-  const double wanted = std::max(least_per_period, least_per_time_constant * time_constants);
+  const double wanted =
+      std::clamp(least_per_time_constant * time_constants, least_per_period, most_per_period);
   return static_cast<int>(std::ceil(wanted / *sensor.samples_per_period));
 }
 

@@ -72,6 +72,20 @@ TEST(ForceSamplerTest, FollowsAJumpWithinItsBound) {
   }
 }
 
+/// It settles between two stops of the plant, however fast it is.
+TEST(ForceSamplerTest, BehindAFilterOfNoTimeTakesWhatThereIs) {
+  for (const double filter_Hz : {1e8, 1e12}) {
+    for (const double frequency_Hz : {1.0, 60e3}) {
+      scene::Scene scene = sampled(4, filter_Hz);
+      scene.drive->frequency_Hz = frequency_Hz;
+      const ForceSampler sampler(scene);
+      EXPECT_EQ(sampler.intervals(), 8192) << filter_Hz << ' ' << frequency_Hz;
+    }
+  }
+  const std::vector<double> seen = samples_of_a_jump(sampled(4, 1e12), 0.3 * period_s);
+  EXPECT_EQ(seen, (std::vector<double>{0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0}));
+}
+
 TEST(ForceSamplerTest, WithoutAFilterASampleIsTheForceOfItsMoment) {
   for (const int samples : {1, 4, 16}) {
     const std::vector<double> seen = samples_of_a_jump(sampled(samples, {}), 0.3 * period_s);
