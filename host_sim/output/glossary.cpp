@@ -6,6 +6,7 @@
 #include <numeric>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sonoglide::output {
@@ -50,11 +51,11 @@ std::string sentence(std::string text) {
 }
 
 /// A row "| `Vt` | sliding velocity |", or a paragraph "**Term, other name** and so on: meaning".
-std::vector<Entry> read_glossary() {
+std::vector<Entry> entries_of(std::string_view document) {
   std::vector<Entry> entries;
   static const std::regex row(R"(\| (`[^|]*`) \| ([^|]*) \|)");
   static const std::regex term(R"(\*\*([^*]*)\*\*([^:]*): ([^]*))");
-  for (const std::string& paragraph : split(std::string(glossary_md()), "\n\n")) {
+  for (const std::string& paragraph : split(std::string(document), "\n\n")) {
     std::smatch found;
     if (std::regex_match(paragraph, found, term)) {
       entries.push_back({split(found[1], ", "), sentence(plain(found[3])), false});
@@ -65,6 +66,27 @@ std::vector<Entry> read_glossary() {
         entries.push_back({split(plain(found[1]), ", "), sentence(plain(found[2])), true});
       }
     }
+  }
+  return entries;
+}
+
+/// Limits and faults, which are the tables of two columns there. One that is also a word of every
+/// day, such as `current`, is left out: a page has it in other meanings.
+std::vector<Entry> limits_and_faults() {
+  std::vector<Entry> entries = entries_of(control_md());
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                               [](const Entry& entry) {
+                                 const std::string& name = entry.names.front();
+                                 return name.find('_') == std::string::npos && name != "mismatch";
+                               }),
+                entries.end());
+  return entries;
+}
+
+std::vector<Entry> read_glossary() {
+  std::vector<Entry> entries = entries_of(glossary_md());
+  for (Entry& entry : limits_and_faults()) {
+    entries.push_back(std::move(entry));
   }
   return entries;
 }

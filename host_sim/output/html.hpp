@@ -30,8 +30,10 @@ std::string_view look_js();
 std::string_view chart_js();
 std::string_view reading_js();
 std::string_view panel_js();
+std::string_view wide_js();
 std::string_view page_js();
 std::string_view glossary_md();
+std::string_view control_md();
 
 /// Each symbol and each term of the glossary that the page uses, and each symbol in their meanings, in a
 /// folded table; symbols first.

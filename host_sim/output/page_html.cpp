@@ -96,7 +96,7 @@ void append_head(std::string& html, const Page& page) {
 void append_scripts(std::string& html) {
   html += "<script>\n";
   for (const std::string_view script :
-       {numbers_js(), look_js(), chart_js(), reading_js(), panel_js(), page_js()}) {
+       {numbers_js(), look_js(), chart_js(), reading_js(), panel_js(), wide_js(), page_js()}) {
     html += script;
   }
   html += "</script>\n";

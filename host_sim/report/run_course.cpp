@@ -105,6 +105,12 @@ output::Section course_section(const scene::Scene& scene, const Course::Curve& c
         fmt::format("Drive {} amplitude [{}]", scene.transducer ? "voltage" : "force", unit.name),
         std::move(amplitudes));
   }
+  if (scene.drive && scene.drive->bias_limit_N > 0.0) {
+    add("Bias", "A force that is constant over a carrier period, beside the drive.",
+        "Bias force [N]",
+        {series("bias", Course::bias_N), level("largest", time, scene.drive->bias_limit_N),
+         level("smallest", time, -scene.drive->bias_limit_N)});
+  }
   if (scene.sliding.profile.size() > 1) {
     add("Sliding velocity", "", "Sliding velocity [m/s]",
         {series("sliding", Course::sliding_velocity_m_per_s)});

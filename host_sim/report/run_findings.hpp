@@ -21,7 +21,14 @@ namespace sonoglide::report {
 /// The course of a run, carrier period by carrier period, for charts.
 class Course final : public loop::PeriodSink {
  public:
-  enum Ordinate { friction_ratio, target, drive_amplitude_N, sliding_velocity_m_per_s, ordinates };
+  enum Ordinate {
+    friction_ratio,
+    target,
+    drive_amplitude_N,
+    sliding_velocity_m_per_s,
+    bias_N,
+    ordinates
+  };
   using Curve = report::ExtremesCurve<ordinates>;
 
   void take(const loop::Period& period) override;

@@ -90,7 +90,8 @@ def main():
     site = documents.Site(SOURCES, SITE, (HERE / "page.html").read_text())
     style = (SOURCES / "host_sim/output/page/page.css").read_text() + (HERE / "gallery.css").read_text()
     (SITE / "gallery.css").write_text(style)
-    (SITE / "search.js").write_text((HERE / "search.js").read_text())
+    for script in (SOURCES / "host_sim/output/page/wide.js", HERE / "search.js"):
+        (SITE / script.name).write_text(script.read_text())
     site.write_documents()
     index = site.index + reference.write(SOURCES, SITE)
     documents.write_index(SITE, index)

@@ -56,7 +56,8 @@ const Look = (() => {
     });
   };
 
-  // A marker as a path about a point; of gnuplot's numbers the odd ones are filled.
+  // A marker as a path about a point. Of gnuplot's numbers the odd ones are filled, and the even one
+  // below has the same outline.
   const marker = (symbol, x, y, r) => {
     const polygon = (corners, turn) => {
       const points = [];
@@ -66,7 +67,7 @@ const Look = (() => {
       }
       return `M${points.join('L')}z`;
     };
-    switch (symbol - 1 + symbol % 2) {
+    switch (symbol | 1) {
       case 5: return polygon(4, Math.PI / 4);
       case 9: return polygon(3, -Math.PI / 2);
       case 11: return polygon(3, Math.PI / 2);

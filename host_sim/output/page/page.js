@@ -9,20 +9,21 @@
     Panel.all.push(new Panel(figure, data));
   }
 
-  const markWide = (box) => {
-    const hidden = box.scrollWidth - box.clientWidth;
-    box.classList.toggle('more-right', hidden > 1 && box.scrollLeft < hidden - 1);
-    box.classList.toggle('more-left', hidden > 1 && box.scrollLeft > 1);
-    if (hidden > 1) box.tabIndex = 0;
-    else box.removeAttribute('tabindex');
-  };
-  const boxes = [...document.querySelectorAll('.scroll')];
-  const sizes = new ResizeObserver((entries) => entries.forEach(({target}) => markWide(target)));
-  for (const box of boxes) {
-    box.addEventListener('scroll', () => markWide(box), {passive: true});
-    sizes.observe(box);
-    markWide(box);
+  // A word with a hyphen, as Cortex-M0 or --law, stays in one line.
+  const mostLetters = 20;
+  for (const text of document.querySelectorAll('th, td, p')) {
+    if (text.children.length > 0 || !/-[A-Za-z]/.test(text.textContent)) continue;
+    const parts = text.textContent.split(/(\S*-[A-Za-z]\S*)/);
+    text.replaceChildren(...parts.map((part, i) => {
+      if (i % 2 === 0 || part.length > mostLetters) return part;
+      const word = document.createElement('span');
+      word.className = 'whole';
+      word.textContent = part;
+      return word;
+    }));
   }
+
+  markWide('.scroll');
 
   // On paper every table is open, and charts have letters for the width of a sheet.
   const sheetWidth = 680;

@@ -90,7 +90,7 @@ const char* word(ClaimStatus verdict) {
 }
 
 output::Table claim_table(const std::vector<Claim>& claims) {
-  output::Table table{"", {"What the paper says", "It", "Numbers"}, {}};
+  output::Table table{"", {"What the paper says", "Verdict", "Numbers"}, {}};
   for (const Claim& claim : claims) {
     table.rows.push_back({claim.statement, word(claim.verdict), claim.numbers});
   }

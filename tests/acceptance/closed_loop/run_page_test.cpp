@@ -30,6 +30,12 @@ const Report reports[] = {
      {"Target steps", "Run", "Fixed-point signals, per unit", "Course of the run",
       "Step to 0.5 at 0 ms", "End of the run"}},
     {"table_1_open_loop", {}, 7, {"Run", "Course of the run", "Start", "End of the run"}},
+    {"damped_step",
+     {"plant.stiffness_N_per_m=2.558e6", "friction.normal_force_N=40",
+      "friction.contact_stiffness_N_per_m=11.4e6", "drive.max_force_amplitude_N=2200",
+      "drive.bias_limit_N=12"},
+     15,
+     {"Course of the run", "Bias", "Vibration"}},
     // Of one carrier period there is no course.
     {"steady_open_loop", {}, 5, {"Run", "Start", "End of the run"}},
 };

@@ -53,6 +53,30 @@ TEST_F(PageInBrowser, ZoomsReadsPansAndResetsByMouse) {
   EXPECT_EQ(count(seen, "data-followed"), kPanels);
 }
 
+// Odd ones are filled; the even one below has the same outline.
+TEST_F(PageInBrowser, DrawsTheMarkersOfGnuplot) {
+  const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
+    const outline = (symbol) => Look.marker(symbol, 10, 10, 4);
+    const open = [4, 6, 8, 10, 12, 14];
+    Object.assign(document.body.dataset, {
+      outlines: new Set(open.map(outline)).size,
+      pairs: open.filter((symbol) => outline(symbol) === outline(symbol + 1)).length,
+    });
+  )js");
+  EXPECT_EQ(count(seen, "data-outlines"), 6);
+  EXPECT_EQ(count(seen, "data-pairs"), 6);
+}
+
+TEST_F(PageInBrowser, KeepsAWordWithAHyphenInOneLine) {
+  output::Page page = report::sample_page();
+  page.tables = {{"", {"Law (--law)", "Part"}, {{"Cortex-M0", "no hyphen"}}}};
+  const browser::Visit seen = visit(output::to_html(page), R"js(
+    document.body.dataset.whole =
+        [...document.querySelectorAll('table .whole')].map((word) => word.textContent).join();
+  )js");
+  EXPECT_EQ(browser::body_attribute(seen.dom, "data-whole").rfind("(--law),Cortex-M0", 0), 0U);
+}
+
 TEST_F(PageInBrowser, ShowsSiPrefixesThatFollowTheZoom) {
   const browser::Visit seen = visit(output::to_html(report::sample_page()), R"js(
     const figure = [...document.querySelectorAll('figure.panel')].find(

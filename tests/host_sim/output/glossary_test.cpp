@@ -72,6 +72,17 @@ TEST(Glossary, LooksAtEveryPartOfAPage) {
   }
 }
 
+TEST(Glossary, ExplainsTheLimitsAndFaultsOfTheController) {
+  Page page;
+  page.lead = "Limit velocity_at_rail, mismatch (0.5); Fault velocity_stuck";
+  const Words words = words_of_page(page);
+  for (const char* name : {"Limit", "Fault", "velocity_at_rail", "mismatch", "velocity_stuck",
+                           "measurement_implausible"}) {
+    EXPECT_EQ(std::count(words.begin(), words.end(), name), 1) << name;
+  }
+  EXPECT_EQ(words_in("The current, a voltage, mismatch_warning"), Words{});
+}
+
 TEST(Glossary, ExplainsTheSymbolsOfItsMeanings) {
   EXPECT_EQ(words_in("drive input ratio"),
             (Words{"Vt", "Fc", "N, Fn", "μ, mu", "Drive input ratio"}));
