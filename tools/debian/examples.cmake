@@ -15,7 +15,7 @@ set(examples_sonoglide-pil
   "sonoglide pil ${target_step} --board mps2-an386"
   "Runs the controller as a firmware image on an emulated Cortex-M4F.")
 set(examples_sonoglide-connect
-  "sonoglide connect /dev/ttyACM0" "Talks to the unit on a serial device; help lists the commands."
+  "sonoglide connect /dev/ttyACM0" "Talks to the unit on a serial device. The word help lists the commands."
   "echo stop | sonoglide connect /dev/ttyACM0" "Stops its drive.")
 set(examples_sonoglide-configure
   "sonoglide configure ${target_step} --out controller"

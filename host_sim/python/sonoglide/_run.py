@@ -74,7 +74,10 @@ class Run:
             raise ImportError("plot() needs matplotlib: apt install python3-matplotlib") from error
         periods = self.periods
         if len(periods["time_s"]) == 0:
-            raise ValueError("nothing was recorded; required: run.record and run.record_interval_s of the scene")
+            raise ValueError(
+                "nothing was recorded; required: run.record and run.record_interval_s of the scene, as in "
+                'scene.replace({"run.record": ["displacement_m"], "run.record_interval_s": 1e-6})'
+            )
         figure, (ratio, drive) = pyplot.subplots(2, sharex=True, height_ratios=(2, 1))
         time_ms = periods["time_s"] * 1e3
         ratio.plot(time_ms, periods["friction_ratio"], label="friction ratio")

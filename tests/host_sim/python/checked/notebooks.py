@@ -27,6 +27,15 @@ readings = {
 }
 laws = ["coulomb", "transverse_coulomb"]
 """,
+        # A file with decimal commas.
+        """
+import pathlib
+pathlib.Path("decimal_commas.csv").write_text(
+    "# measured on Monday\\nsliding_velocity_m_per_s;vibration_velocity_m_per_s;friction_force_N\\n"
+    "0,01;0,1;0,9\\n0,03;0,1;2,6\\n0,05;0,1;4,4\\n0,07;0,05;13,0\\n")
+readings = "decimal_commas.csv"
+laws = ["coulomb", "dahl"]
+""",
     ],
     "tune_a_controller": [
         """
