@@ -113,8 +113,8 @@ class Controller {
   /// What is known of the friction.
   const FrictionLevel<Scalar>& friction_level() const { return level_; }
   const typename PartsT::Relearning& relearning() const { return relearning_; }
-  /// none, or what the measured ratio shows against what is known: mismatch or not_settling.
-  Limit disagreement() const { return watch_.limit_named(); }
+  /// Whether the measured ratio speaks against what is known of the friction.
+  bool doubts() const { return watch_.doubts(); }
 
   /// Answer to one carrier period, valid for the next.
   template <Numbers Known = Numbers::any>

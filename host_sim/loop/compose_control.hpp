@@ -49,7 +49,7 @@ class InProcess : public ControlPort {
   std::optional<FrictionBelief> friction() const override {
     if constexpr (std::is_same_v<typename Parts::Relearning, control::FrictionTracking<Scalar>>) {
       return friction_belief(controller_.friction_level(), controller_.relearning(),
-                             controller_.disagreement() == control::Limit::none);
+                             !controller_.doubts());
     }
     return std::nullopt;
   }

@@ -116,6 +116,9 @@ class SettlingWatch {
     return count_ < limit() ? Limit::none : Limit::not_settling;
   }
 
+  /// A limit is named, or the ratio has been outside of its band for more than two periods of late.
+  bool doubts() const { return 2 * step < count_ || limit_named() != Limit::none; }
+
  private:
   static constexpr std::uint32_t step = 4;
   static constexpr int disagreement_named = 16;     ///< noise alone is not named

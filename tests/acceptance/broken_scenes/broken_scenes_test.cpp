@@ -91,6 +91,9 @@ const std::vector<BrokenScene> broken_scenes = {
      "max_force_amplitude_N = 0.9",
      "17:12: controller.friction: \"tracked\" needs a friction force below 2 % of the largest drive "
      "force; allowed: \"trusted\", \"calibrated\""},
+    {"tracked_at_resonance", resonant_loop, "\"resonant\"", "\"resonant\"\nfriction = \"tracked\"",
+     "22:12: controller.friction: \"tracked\" is for a drive that is fed forward; allowed with "
+     "controller.vibration = \"resonant\": \"trusted\", \"calibrated\""},
     {"tracked_and_damped", damped_loop, "\"damped\"", "\"damped\"\nfriction = \"tracked\"",
      "19:12: controller.friction: \"tracked\" is for a drive that is fed forward; allowed with "
      "controller.vibration = \"damped\": \"trusted\", \"calibrated\""},

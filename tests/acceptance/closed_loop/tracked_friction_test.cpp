@@ -134,6 +134,22 @@ TEST(TrackedFriction, DoesNotSwingByALargeCorrection) {
   }
 }
 
+/// Whenever the run ends after a jump: before a reading, in a dip or with the loop settled again.
+TEST(TrackedFriction, IsNotSureWhileTheLoopContradictsIt) {
+  for (const char* jumped : {"0.15", "0.05"}) {
+    for (const char* end : {"6.2e-3", "6.4e-3", "6.7e-3", "7e-3", "7.5e-3", "9e-3"}) {
+      const nlohmann::json summary = summary_of(
+          "target_step",
+          tracked({"friction.coefficient=",
+                   std::string("friction.coefficient_profile=[[0,0.1],[6e-3,0.1],[6e-3,") + jumped +
+                       "]]",
+                   "run.record=[]", std::string("run.duration_s=") + end}));
+      const nlohmann::json& force = summary.at("control").at("friction").at("Fc_N");
+      EXPECT_TRUE(holds(force, 0.1962 * std::stod(jumped))) << jumped << " " << end << force;
+    }
+  }
+}
+
 /// Far outside of the 30 % that are taken for the deviation of Fc.
 TEST(TrackedFriction, IsNeverSureOfAForceThatIsWrong) {
   for (const std::string& arithmetic : arithmetics) {

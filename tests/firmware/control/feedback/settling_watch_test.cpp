@@ -52,6 +52,20 @@ TYPED_TEST(SettlingWatchTest, NamesARatioThatStaysAwayAfterTheStatedPeriods) {
   EXPECT_EQ(this->watch_.settling(), Settling::offset);
 }
 
+/// 4 up for each period outside, 1 down for each one inside: doubted above 8.
+TYPED_TEST(SettlingWatchTest, DoubtsWhatIsKnownFromTheThirdPeriodOutside) {
+  this->judge(0.4, 0.4, 0.4);
+  this->judge_for(2, 0.4, 0.45, 0.4);
+  EXPECT_FALSE(this->watch_.doubts());
+  this->judge(0.4, 0.45, 0.4);
+  EXPECT_TRUE(this->watch_.doubts());
+  this->judge_for(4, 0.4, 0.4, 0.4);
+  EXPECT_FALSE(this->watch_.doubts());
+  this->judge_for(60, 0.4, 0.4, 0.2);
+  EXPECT_EQ(this->watch_.limit_named(), Limit::mismatch);
+  EXPECT_TRUE(this->watch_.doubts());
+}
+
 TYPED_TEST(SettlingWatchTest, KnowsWhy) {
   for (int i = 0; i < 100; ++i) {
     this->judge(0.4, 0.4 + 0.05 * std::sin(1.36 * i), 0.4);
