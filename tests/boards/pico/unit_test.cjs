@@ -1,6 +1,7 @@
 // A unit on the emulated Pico under random orders of a host, with a contact behind its converters and its
-// bridge: no carrier period is late, the host is answered, what is saved is there after a reset, and a
-// service that hangs ends in a reset with the drive at zero.
+// bridge: no carrier period is late, the host is answered, a bad conversion and a byte that is lost do what
+// they should, what is saved is there after a reset, and a service that hangs ends in a reset with the drive
+// at zero.
 //
 // Usage: node unit_test.cjs IMAGE SECONDS SEED   (IMAGE: an .elf or a .uf2 file)
 const assert = require('node:assert');
@@ -12,7 +13,7 @@ const driveLimit = 1; // numbers of parameters
 const hostTimeout = 7;
 const refusedWhileDriving = 6;
 const states = {off: 0, fault: 4};
-const faults = {overrun: 32, watchdogReset: 33, serviceStalled: 37};
+const faults = {missing: 17, saturated: 18, overrun: 32, watchdogReset: 33};
 
 const [, , image, seconds, seed] = process.argv;
 let state = Number(seed) >>> 0;
@@ -29,7 +30,13 @@ const pico = new Pico(image);
 let amplitude = 0;
 let friction = 0.5;
 const noise = () => random(41) - 20;
-pico.input = (period, channel) => channel === 1 ? 2048 + 205 : Math.round(2048 + 2048 * friction) + noise();
+let oneConversion = null; // in the place of the next one of the force
+pico.input = (period, channel, turn) => {
+  const code = channel === 1 ? 2048 + 205 : Math.round(2048 + 2048 * friction) + noise();
+  const shown = channel === 0 && turn === 2 && oneConversion !== null ? oneConversion : code;
+  oneConversion = shown === code ? oneConversion : null;
+  return shown;
+};
 
 let worst = 0;
 let controls = 0;
@@ -105,16 +112,34 @@ assert.ok(driven > 0, 'the unit never drives');
 assert.strictEqual(telemetry().lost, 0);
 assert.strictEqual(pico.resets, 0);
 
+// One conversion of four that failed, or that is at the end of its range, ends the drive.
+function drive() {
+  ask(kinds.target, [400000, 4]);
+  ask(kinds.restart);
+  pause(0.02);
+  telemetry();
+  assert.ok(amplitude > 0.1, 'the unit does not drive');
+}
+for (const [code, fault] of [[2048 | 0x8000, faults.missing], [4095, faults.saturated], [0, faults.saturated]]) {
+  drive();
+  oneConversion = code;
+  pause(60e-6);
+  assert.strictEqual(amplitude, 0);
+  assert.strictEqual(telemetry().fault, fault);
+}
+
+// A byte that is lost costs its frame alone.
+answer = null;
+link.request(kinds.telemetry);
+pico.toSend.splice(5, 1);
+pause(0.01);
+assert.strictEqual(answer, null);
+assert.strictEqual(telemetry().lost, 1);
+
 // What is saved is there after a reset, and a service that hangs is one.
 ask(kinds.stop);
 assert.ok(!ask(kinds.writeParameter, [driveLimit, 1], [765432, 4]).refused);
-ask(kinds.target, [400000, 4]);
-ask(kinds.restart);
-for (let i = 0; i < 3; ++i) {
-  pause(0.01);
-  telemetry();
-}
-assert.ok(amplitude > 0.1, 'the unit does not drive');
+drive();
 pico.runWhile(() => pico.inInterrupt);
 const loop = 0x20041000; // above the stack
 pico.mcu.writeUint16(loop, 0xe7fe); // b .
