@@ -76,6 +76,31 @@ constexpr std::int32_t rounded_q31_product(std::int32_t a, std::int32_t b) {
   }
 }
 
+/// 2^31 a / b to nearest, ties toward +infinity, b not 0: the quotient of two numbers with 31 fraction bits,
+/// digit by digit. Where |a| > |b|, any number outside the range of the two, with the sign of the quotient.
+constexpr std::int64_t quotient_by_digits(std::int32_t a, std::int32_t b) {
+  const bool negative = (a < 0) != (b < 0);
+  std::uint32_t rest = a < 0 ? 0U - static_cast<std::uint32_t>(a) : static_cast<std::uint32_t>(a);
+  const std::uint32_t divisor =
+      b < 0 ? 0U - static_cast<std::uint32_t>(b) : static_cast<std::uint32_t>(b);
+  if (rest >= divisor) {
+    const std::int64_t magnitude = std::int64_t{1} << (rest == divisor ? 31 : 32);
+    return negative ? -magnitude : magnitude;
+  }
+  std::uint32_t quotient = 0;
+  for (int digit = 0; digit < 31; ++digit) {
+    rest *= 2;
+    quotient *= 2;
+    if (rest >= divisor) {
+      rest -= divisor;
+      ++quotient;
+    }
+  }
+  const std::uint32_t twice = 2 * rest;
+  quotient += twice > divisor || (twice == divisor && !negative) ? 1U : 0U;
+  return negative ? -std::int64_t{quotient} : std::int64_t{quotient};
+}
+
 /// a b / 2^32, rounded down, from four products of halves; every sum fits a word.
 constexpr std::int32_t high_word_of_halves(std::int32_t a, std::int32_t b) {
   const std::int32_t a_low = a & 0xffff;

@@ -55,6 +55,46 @@ TEST(WordProduct, OfHalvesIsTheRoundedWideProduct) {
   }
 }
 
+__extension__ using Wide = __int128;
+
+/// floor(2^31 a / b + 1/2) in 128 bits.
+std::int64_t rounded_quotient(std::int32_t a, std::int32_t b) {
+  const Wide sign = b < 0 ? -1 : 1;
+  const Wide dividend = sign * a * (Wide{1} << 32) + sign * b;
+  const Wide divisor = 2 * sign * b;
+  const Wide quotient = dividend / divisor;
+  return static_cast<std::int64_t>(quotient - (dividend % divisor < 0 ? 1 : 0));
+}
+
+TEST(WordQuotient, ByDigitsIsTheRoundedOne) {
+  Words words;
+  const std::int32_t ends[] = {INT32_MIN, INT32_MIN + 1, -3,       -2, -1, 1, 2, 3,
+                               5,         INT32_MAX - 1, INT32_MAX};
+  const auto expect_rounded = [](std::int32_t a, std::int32_t b) {
+    const std::int64_t expected = rounded_quotient(a, b);
+    const std::int64_t found = quotient_by_digits(a, b);
+    if (std::int64_t{INT32_MIN} <= expected && expected <= INT32_MAX) {
+      ASSERT_EQ(found, expected) << a << " / " << b;
+    } else {
+      ASSERT_TRUE(expected < 0 ? found < INT32_MIN : found > INT32_MAX) << a << " / " << b;
+    }
+  };
+  for (int i = 0; i < 1'000'000; ++i) {
+    const std::int32_t a = words.next();
+    const std::int32_t b = words.next() >> (i % 31);
+    if (b != 0) {
+      expect_rounded(a >> (i / 31 % 31), b);
+      expect_rounded(b / 2, b);  // near a tie
+    }
+  }
+  for (const std::int32_t a : ends) {
+    for (const std::int32_t b : ends) {
+      expect_rounded(a, b);
+      expect_rounded(0, b);
+    }
+  }
+}
+
 TEST(WordWidth, ByHalvingIsThatOfTheLeadingOne) {
   for (int width = 1; width <= 32; ++width) {
     const std::uint32_t leading = 1U << (width - 1);
