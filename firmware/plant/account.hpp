@@ -96,4 +96,48 @@ struct EnergyAccount {
   }
 };
 
+/// Integrals of the motion of a load over a step or more, in its own units: M L^2 omega^2.
+template <class Scalar>
+struct LoadIntegrals {
+  Scalar force_work = Scalar(0);       ///< of fa r: from the applied force
+  Scalar pull_work = Scalar(0);        ///< of -kl z vp: from the pulled end of the spring
+  Scalar velocity_square = Scalar(0);  ///< of r^2
+
+  void add(const LoadIntegrals& other, Scalar weight = Scalar(1)) {
+    force_work += weight * other.force_work;
+    pull_work += weight * other.pull_work;
+    velocity_square += weight * other.velocity_square;
+  }
+};
+
+/// The same balance with the energy of a load in it (LoadedModel).
+template <class Scalar>
+struct LoadedEnergyAccount : EnergyAccount<Scalar> {
+  LoadIntegrals<Scalar> load;
+
+  template <class Step>
+  void add(const Step& step) {
+    EnergyAccount<Scalar>::add(step);
+    load.add(step.load_integrals());
+  }
+
+  /// Residual of the identity of the load,
+  ///   stored(after) - stored(before) = (force_work + pull_work - damping_work) / eps
+  ///                                    - beta sliding_work,
+  /// relative to the largest of its terms; 0 if all of them are 0. The oscillator has its own.
+  template <class Model>
+  Scalar load_residual(const Model& model, const LoadedState<Scalar>& before,
+                       const LoadedState<Scalar>& after) const {
+    const Scalar damping_work = model.load_damping * load.velocity_square;
+    const Scalar stored[] = {model.load_energy(before), model.load_energy(after)};
+    const Scalar friction = model.contact_force(this->sliding_work);
+    Scalar largest = numeric::max(numeric::max(stored[0], stored[1]), numeric::abs(friction));
+    for (const Scalar work : {load.force_work, load.pull_work, damping_work}) {
+      largest = numeric::max(largest, numeric::abs(work) / model.mass_ratio);
+    }
+    const Scalar given = (load.force_work + load.pull_work - damping_work) / model.mass_ratio;
+    return largest > Scalar(0) ? (stored[1] - stored[0] - given + friction) / largest : Scalar(0);
+  }
+};
+
 }  // namespace sonoglide::plant

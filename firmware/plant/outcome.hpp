@@ -61,7 +61,12 @@ Error check_state(const Law& /*law*/, const State<typename Law::Scalar>& state) 
   return is_finite(state) ? Error::none : Error::not_finite;
 }
 template <class Law>
-Error check_state(const Law& law, const RememberingState<Law>& state) {
+Error check_state(const Law& law, const LoadedState<typename Law::Scalar>& state) {
+  const State<typename Law::Scalar>& oscillator = state;
+  return is_finite(state) ? check_state(law, oscillator) : Error::not_finite;
+}
+template <class Law, class Motion>
+Error check_state(const Law& law, const RememberingState<Law, Motion>& state) {
   using Scalar = typename Law::Scalar;
   const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon();
   const Scalar bound = law.largest_memory() * (Scalar(1) + rounding);
@@ -72,11 +77,18 @@ Error check_state(const Law& law, const RememberingState<Law>& state) {
 }
 
 /// Whether a step keeps the classical Runge–Kutta formula stable on the oscillator alone:
-/// |h| sqrt(|k|) <= 2 sqrt(2) and h d <= 2.785.
+/// |h| sqrt(|k|) <= 2 sqrt(2) and h d <= 2.785; and on a load alone.
 template <class Model, class Scalar>
 bool oscillator_is_stable(const Model& model, Scalar step) {
+  constexpr Scalar most_damping = numeric::from_real<Scalar>(2.785);
+  if constexpr (Model::Sliding::moves) {
+    if (step * step * model.load_stiffness > Scalar(8) ||
+        step * model.load_damping > most_damping) {
+      return false;
+    }
+  }
   return step * step * numeric::abs(model.stiffness) <= Scalar(8) &&
-         model.damping_force(step) <= numeric::from_real<Scalar>(2.785);
+         model.damping_force(step) <= most_damping;
 }
 
 }  // namespace sonoglide::plant

@@ -49,7 +49,7 @@ struct HasConfigure<Solver, std::void_t<decltype(std::declval<Solver&>().configu
 template <class Solver>
 using OutcomeOfAdvance = decltype(std::declval<Solver&>().advance(
     std::declval<const IntervalOf<typename Solver::Model>&>(),
-    std::declval<StateOf<typename Solver::Model::FrictionLaw>&>(),
+    std::declval<typename Solver::Model::PlantState&>(),
     std::declval<MeanFriction<typename Solver::Scalar>&>(), std::declval<NoObserver&>()));
 
 template <class Solver, class = void>

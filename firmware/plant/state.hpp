@@ -17,16 +17,23 @@ struct State {
   Scalar friction = Scalar(0);      ///< phi = F / Fc, in [-1, 1]
 };
 
+/// State of a plant on which a load slides: a body of its own mass (see LoadedModel).
+template <class Scalar>
+struct LoadedState : State<Scalar> {
+  Scalar sliding_velocity = Scalar(0);  ///< r = Vt / (omega L)
+  Scalar extension = Scalar(0);  ///< z of its spring: displacement of the body less that of the
+                                 ///< pulled end, over L
+};
+
 /// State of a plant whose contact remembers more than its force.
-template <class Law>
-struct RememberingState : State<typename Law::Scalar> {
+template <class Law, class Motion = State<typename Law::Scalar>>
+struct RememberingState : Motion {
   typename Law::Memory memory{};
 };
 
-/// State of a plant with this friction law.
-template <class Law>
-using StateOf =
-    std::conditional_t<Law::remembers, RememberingState<Law>, State<typename Law::Scalar>>;
+/// State of a plant with this friction law, and with this motion of its masses.
+template <class Law, class Motion = State<typename Law::Scalar>>
+using StateOf = std::conditional_t<Law::remembers, RememberingState<Law, Motion>, Motion>;
 
 /// What the law advances: phi, or its Memory.
 template <class Scalar>
@@ -37,20 +44,26 @@ template <class Scalar>
 const Scalar& contact_memory(const State<Scalar>& state) {
   return state.friction;
 }
-template <class Law>
-typename Law::Memory& contact_memory(RememberingState<Law>& state) {
+template <class Law, class Motion>
+typename Law::Memory& contact_memory(RememberingState<Law, Motion>& state) {
   return state.memory;
 }
-template <class Law>
-const typename Law::Memory& contact_memory(const RememberingState<Law>& state) {
+template <class Law, class Motion>
+const typename Law::Memory& contact_memory(const RememberingState<Law, Motion>& state) {
   return state.memory;
 }
 
-/// False if any of the three is infinite or not a number.
+/// False if any number of the motion is infinite or not a number.
 template <class Scalar>
 bool is_finite(const State<Scalar>& state) {
   return numeric::is_finite(state.displacement) && numeric::is_finite(state.velocity) &&
          numeric::is_finite(state.friction);
+}
+template <class Scalar>
+bool is_finite(const LoadedState<Scalar>& state) {
+  const State<Scalar>& oscillator = state;
+  return is_finite(oscillator) && numeric::is_finite(state.sliding_velocity) &&
+         numeric::is_finite(state.extension);
 }
 
 /// A stretch of time with one drive amplitude and a sliding velocity that is linear in time:
@@ -65,10 +78,22 @@ struct Interval {
   Scalar sliding_acceleration = Scalar(0);  ///< dr / d tau
 };
 
+/// The same for a plant with a load: sliding_velocity and sliding_acceleration are those of the pulled
+/// end of its spring, and the force on the body is load_force + load_force_rate t.
+template <class Scalar, class Amplitude = Scalar>
+struct LoadedInterval : Interval<Scalar, Amplitude> {
+  Scalar load_force = Scalar(0);       ///< Fa / (M L omega^2) at the beginning
+  Scalar load_force_rate = Scalar(0);  ///< its derivative by tau
+};
+
 /// As a plant::Model takes it.
 template <class Model>
-using IntervalOf = Interval<typename Model::Scalar,
-                            typename Model::Drive::template Amplitude<typename Model::Scalar>>;
+using IntervalOf = std::conditional_t<
+    Model::Sliding::moves,
+    LoadedInterval<typename Model::Scalar,
+                   typename Model::Drive::template Amplitude<typename Model::Scalar>>,
+    Interval<typename Model::Scalar,
+             typename Model::Drive::template Amplitude<typename Model::Scalar>>>;
 
 /// The smallest number of equal steps no longer than longest_step. A number above `limit` is not
 /// told exactly: it is given as limit + 1.

@@ -37,9 +37,8 @@ class Rk4 {
   /// Advances the state over the interval, adding every step to the account and showing it to the
   /// observer.
   template <class Account, class Observer>
-  Outcome<Scalar> advance(const IntervalOf<Model>& interval,
-                          StateOf<typename Model::FrictionLaw>& state, Account& account,
-                          Observer& observer) {
+  Outcome<Scalar> advance(const IntervalOf<Model>& interval, typename Model::PlantState& state,
+                          Account& account, Observer& observer) {
     const std::uint32_t count = fixed_step_count(interval.duration, step_, step_limit_);
     if (count > step_limit_) {
       return {Error::too_many_steps, Scalar(0)};

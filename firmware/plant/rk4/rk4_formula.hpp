@@ -66,7 +66,7 @@ template <class Model, class ContactSense>
 class Rk4Formula {
  public:
   using Scalar = typename Model::Scalar;
-  using PlantState = StateOf<typename Model::FrictionLaw>;
+  using PlantState = typename Model::PlantState;
   using Stage = Rk4Stage<Scalar, PlantState>;
   using Stages = Rk4Stages<Scalar, PlantState>;
 
@@ -75,8 +75,9 @@ class Rk4Formula {
 
   /// The plant at one instant.
   Stage stage(Scalar drive, Scalar offset, PlantState state) const {
-    const Scalar sliding =
+    const Scalar given =
         interval_.sliding_velocity + Model::Sliding::change(interval_.sliding_acceleration, offset);
+    const Scalar sliding = sliding_velocity(given, state);
     const auto velocity = model_.contact_velocity(sliding, state.velocity);
     state.friction = contact_.friction(model_.law, velocity, contact_memory(state));
     PlantState slope;
@@ -85,6 +86,12 @@ class Rk4Formula {
     slope.velocity = model_.acceleration(
         drive, {state.displacement, state.velocity,
                 model_.friction_on_oscillator(sliding, state.velocity, state.friction)});
+    if constexpr (Model::Sliding::moves) {
+      const Scalar force = interval_.load_force + interval_.load_force_rate * offset;
+      slope.sliding_velocity = model_.free_load_acceleration(force, sliding, state.extension) -
+                               model_.load_friction(state.friction);
+      slope.extension = sliding - given;
+    }
     return {drive, sliding, state, slope};
   }
 
@@ -105,15 +112,33 @@ class Rk4Formula {
     slope.displacement = mean(k, [](const PlantState& rate) { return rate.displacement; });
     slope.velocity = mean(k, [](const PlantState& rate) { return rate.velocity; });
     contact_memory(slope) = mean(k, [](const PlantState& rate) { return contact_memory(rate); });
+    if constexpr (Model::Sliding::moves) {
+      slope.sliding_velocity =
+          mean(k, [](const PlantState& rate) { return rate.sliding_velocity; });
+      slope.extension = mean(k, [](const PlantState& rate) { return rate.extension; });
+    }
     taken.end = stage(drive.end, offset + length, moved(from, slope, length));
     return taken;
   }
 
  private:
+  /// Of the body: what the interval gives, or its own.
+  static Scalar sliding_velocity(Scalar given, const PlantState& state) {
+    if constexpr (Model::Sliding::moves) {
+      return state.sliding_velocity;
+    } else {
+      return given;
+    }
+  }
+
   static PlantState moved(PlantState from, const PlantState& slope, Scalar time) {
     from.displacement += time * slope.displacement;
     from.velocity += time * slope.velocity;
     contact_memory(from) += time * contact_memory(slope);
+    if constexpr (Model::Sliding::moves) {
+      from.sliding_velocity += time * slope.sliding_velocity;
+      from.extension += time * slope.extension;
+    }
     return from;
   }
 

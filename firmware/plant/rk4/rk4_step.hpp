@@ -27,7 +27,8 @@ class Rk4Step {
  public:
   using Scalar = typename Model::Scalar;
   using Law = typename Model::FrictionLaw;
-  using Stage = Rk4Stage<Scalar, StateOf<Law>>;
+  using PlantState = typename Model::PlantState;
+  using Stage = Rk4Stage<Scalar, PlantState>;
 
   /// end_stage: the plant at the end of the step.
   Rk4Step(const Model& model, const std::array<Stage, 4>& stages, const Stage& end_stage,
@@ -37,22 +38,34 @@ class Rk4Step {
   Scalar begin() const { return begin_; }
   Scalar length() const { return length_; }
 
-  State<Scalar> at(Scalar offset) const {
+  typename Model::Motion at(Scalar offset) const {
     const Scalar x = offset / length_;
-    const StateOf<Law>& from = stages_[0].state;
-    const StateOf<Law>& from_slope = stages_[0].slope;
+    const PlantState& from = stages_[0].state;
+    const PlantState& from_slope = stages_[0].slope;
     const Scalar velocity =
         cubic(from.velocity, from_slope.velocity, end_.state.velocity, end_.slope.velocity, x);
     const Scalar memory = cubic(contact_memory(from), contact_memory(from_slope),
                                 contact_memory(end_.state), contact_memory(end_.slope), x);
-    const Scalar sliding_velocity =
+    Scalar sliding_velocity =
         stages_[0].sliding_velocity + (end_.sliding_velocity - stages_[0].sliding_velocity) * x;
+    if constexpr (Model::Sliding::moves) {
+      sliding_velocity = cubic(from.sliding_velocity, from_slope.sliding_velocity,
+                               end_.state.sliding_velocity, end_.slope.sliding_velocity, x);
+    }
     const Scalar friction =
         model_.law.friction(model_.contact_velocity(sliding_velocity, velocity), memory);
-    return {cubic(from.displacement, from_slope.displacement, end_.state.displacement,
-                  end_.slope.displacement, x),
-            velocity,
-            Law::rate_independent ? numeric::clamp(friction, Scalar(-1), Scalar(1)) : friction};
+    const State<Scalar> oscillator = {
+        cubic(from.displacement, from_slope.displacement, end_.state.displacement,
+              end_.slope.displacement, x),
+        velocity,
+        Law::rate_independent ? numeric::clamp(friction, Scalar(-1), Scalar(1)) : friction};
+    if constexpr (Model::Sliding::moves) {
+      return {oscillator, sliding_velocity,
+              cubic(from.extension, from_slope.extension, end_.state.extension,
+                    end_.slope.extension, x)};
+    } else {
+      return oscillator;
+    }
   }
 
   Scalar friction_integral() const {
@@ -77,12 +90,32 @@ class Rk4Step {
     sum.damping_work = model_.damping_force(sum.velocity_square);
     return sum;
   }
+  /// Of a load. What acts on it follows from the slopes of the stages.
+  LoadIntegrals<Scalar> load_integrals() const {
+    LoadIntegrals<Scalar> sum;
+    const Scalar sixth = length_ / Scalar(6);
+    sum.add(load_powers(stages_[0]), sixth);
+    sum.add(load_powers(stages_[1]), numeric::twice(sixth));
+    sum.add(load_powers(stages_[2]), numeric::twice(sixth));
+    sum.add(load_powers(stages_[3]), sixth);
+    return sum;
+  }
 
  private:
   template <class Integrand>
   Scalar sum(const Integrand& f) const {
     return length_ / Scalar(6) *
            (f(stages_[0]) + Scalar(2) * (f(stages_[1]) + f(stages_[2])) + f(stages_[3]));
+  }
+
+  LoadIntegrals<Scalar> load_powers(const Stage& stage) const {
+    const PlantState& state = stage.state;
+    const Scalar velocity = state.sliding_velocity;
+    const Scalar force = stage.slope.sliding_velocity + model_.load_friction(state.friction) -
+                         model_.free_load_acceleration(Scalar(0), velocity, state.extension);
+    const Scalar pulled = velocity - stage.slope.extension;
+    return {force * velocity, -model_.load_stiffness * state.extension * pulled,
+            velocity * velocity};
   }
 
   static void add(const Stage& stage, Scalar weight, MotionIntegrals<Scalar>& sum) {

@@ -63,7 +63,7 @@ class EventTaylor {
   void configure(const Model& model, Scalar tolerance,
                  std::uint32_t step_limit = max_steps_per_advance) {
     model_ = model;
-    allowed_ = last_term_per_error * (step_share(model.stiffness, drift) * tolerance);
+    allowed_ = last_term_per_error * (share(model) * tolerance);
     longest_step_ = usual_step();
     step_limit_ = step_limit;
     cost_ = Cost();
@@ -73,8 +73,8 @@ class EventTaylor {
   /// observer.
   template <class Account, class Observer>
   [[gnu::flatten]] Outcome<Scalar> advance(const IntervalOf<Model>& interval,
-                                           StateOf<typename Model::FrictionLaw>& state,
-                                           Account& account, Observer& observer) {
+                                           typename Model::PlantState& state, Account& account,
+                                           Observer& observer) {
     snap_to_rest(interval, state);
     Position position = {Scalar(0), Scalar(0)};
     for (std::uint32_t steps = 0; position.offset < interval.duration; ++steps) {
@@ -94,7 +94,9 @@ class EventTaylor {
 
  private:
   using Law = typename Model::FrictionLaw;
-  using At = Instant<Model>;
+  using At = InstantOf<Model>;
+  using PlantState = typename Model::PlantState;
+  static constexpr bool moves = Model::Sliding::moves;
   using Drive = typename Model::Drive::template Phasor<Scalar>;
   using Arc = typename SlidingLaw<Law, Order>::Type;
   using Series = TaylorSeries<Model, Order>;
@@ -143,6 +145,16 @@ class EventTaylor {
   /// Factor by which a unit is shortened after its series has overflowed.
   static constexpr Scalar overflow_retreat = numeric::from_real<Scalar>(1.0 / 1024.0);
 
+  /// Part of the tolerance for a step.
+  static Scalar share(const Model& model) {
+    if constexpr (moves) {
+      return numeric::min(step_share(model.stiffness, drift),
+                          step_share(model.load_stiffness, drift));
+    } else {
+      return step_share(model.stiffness, drift);
+    }
+  }
+
   /// Step that a vibration of unit amplitude allows, with a margin; 3 rad at most.
   Scalar usual_step() const {
     Scalar product = allowed_;
@@ -157,12 +169,13 @@ class EventTaylor {
 
   /// Makes V exactly zero where the previous interval ended at V = 0 and only rounding is left of
   /// it.
-  void snap_to_rest(const IntervalOf<Model>& interval, State<Scalar>& state) const {
+  void snap_to_rest(const IntervalOf<Model>& interval, PlantState& state) const {
     if constexpr (Law::reverses) {
-      const Scalar velocity = model_.contact_velocity(interval.sliding_velocity, state.velocity);
+      const Scalar sliding = sliding_velocity(interval, {}, state);
+      const Scalar velocity = model_.contact_velocity(sliding, state.velocity);
       const Scalar rounding = Scalar(4) * std::numeric_limits<Scalar>::epsilon();
-      if (numeric::abs(velocity) <= rounding * numeric::abs(interval.sliding_velocity)) {
-        state.velocity = model_.resting_velocity(interval.sliding_velocity);
+      if (numeric::abs(velocity) <= rounding * numeric::abs(sliding)) {
+        state.velocity = model_.resting_velocity(sliding);
       }
     }
   }
@@ -170,10 +183,10 @@ class EventTaylor {
   /// While the contact slips, sets friction that is short of its limit by a negligible rest to the
   /// limit.
   void settle(const IntervalOf<Model>& interval, const Position& position,
-              State<Scalar>& state) const {
+              PlantState& state) const {
     if constexpr (Law::varies && Law::rate_independent && !Law::remembers) {
-      const Scalar velocity = model_.contact_velocity(
-          interval.sliding_velocity + sliding_change(interval, position), state.velocity);
+      const Scalar velocity =
+          model_.contact_velocity(sliding_velocity(interval, position, state), state.velocity);
       const Scalar limit = velocity > Scalar(0) ? Scalar(1) : Scalar(-1);
       const Scalar negligible = numeric::min(unsettled * allowed_, most_unsettled);
       if (velocity != Scalar(0) && Scalar(1) - limit * state.friction <= negligible) {
@@ -185,17 +198,9 @@ class EventTaylor {
   // ---- Which kind of step: sliding, sticking, pressed ----
 
   template <class Account, class Observer>
-  Error step(const IntervalOf<Model>& interval, Position& position, StateOf<Law>& state,
+  Error step(const IntervalOf<Model>& interval, Position& position, PlantState& state,
              Account& account, Observer& observer) {
-    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
-    const Scalar change = sliding_change(interval, position);
-    const Scalar phase = interval.phase_begin + position.offset;
-    const At instant = {Drive(interval.drive_amplitude, phase),
-                        interval.sliding_velocity + change,
-                        interval.sliding_acceleration,
-                        epsilon * (Scalar(16) + numeric::twice(phase)),
-                        epsilon * (numeric::abs(interval.sliding_velocity) + numeric::abs(change)),
-                        state};
+    const At instant = instant_at(interval, position, state);
     if constexpr (is_normal) {
       press(interval, instant, position, state, account, observer);
     } else if (const Error error = rub(interval, instant, position, state, account, observer);
@@ -210,7 +215,7 @@ class EventTaylor {
   /// @return not_finite where a coefficient is beyond the largest number in any unit of time
   template <class Account, class Observer>
   Error rub(const IntervalOf<Model>& interval, const At& instant, Position& position,
-            StateOf<Law>& state, Account& account, Observer& observer) {
+            PlantState& state, Account& account, Observer& observer) {
     Branch<Scalar> branch = choose_branch(instant, position.released);
     position.released = Scalar(0);
     if constexpr (Law::sticks) {
@@ -233,6 +238,55 @@ class EventTaylor {
       }
     } while (unit > std::numeric_limits<Scalar>::min());
     return Error::not_finite;
+  }
+
+  At instant_at(const IntervalOf<Model>& interval, const Position& position,
+                const PlantState& state) const {
+    const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+    const Scalar change = sliding_change(interval, position);
+    const Scalar phase = interval.phase_begin + position.offset;
+    const Instant<Model> instant = {
+        Drive(interval.drive_amplitude, phase),
+        interval.sliding_velocity + change,
+        interval.sliding_acceleration,
+        epsilon * (Scalar(16) + numeric::twice(phase)),
+        epsilon * (numeric::abs(interval.sliding_velocity) + numeric::abs(change)),
+        state};
+    if constexpr (moves) {
+      return with_load(interval, position, instant);
+    } else {
+      return instant;
+    }
+  }
+
+  /// What the interval says of the sliding holds for the pulled end of the load's spring.
+  At with_load(const IntervalOf<Model>& interval, const Position& position,
+               Instant<Model> instant) const {
+    const Scalar pull_velocity = instant.sliding_velocity;
+    const Scalar force = interval.load_force + interval.load_force_rate * position.offset;
+    const Scalar velocity = instant.state.sliding_velocity;
+    const Scalar extension = instant.state.extension;
+    instant.sliding_velocity = velocity;
+    instant.sliding_acceleration = model_.free_load_acceleration(force, velocity, extension);
+    instant.rest_error = std::numeric_limits<Scalar>::epsilon() * numeric::abs(velocity);
+    const Scalar moduli = numeric::abs(force) + model_.load_damping * numeric::abs(velocity) +
+                          model_.load_stiffness * numeric::abs(extension);
+    return {instant,
+            force,
+            interval.load_force_rate,
+            pull_velocity,
+            interval.sliding_acceleration,
+            instant.relative_error * moduli};
+  }
+
+  /// Of the body: what the interval gives, or its own.
+  static Scalar sliding_velocity(const IntervalOf<Model>& interval, const Position& position,
+                                 const PlantState& state) {
+    if constexpr (moves) {
+      return state.sliding_velocity;
+    } else {
+      return interval.sliding_velocity + sliding_change(interval, position);
+    }
   }
 
   /// Change of the sliding velocity since the interval began.
@@ -299,7 +353,7 @@ class EventTaylor {
   /// unit: the time in which the series is written.
   template <class Account, class Observer>
   Slide slide(const IntervalOf<Model>& interval, const At& instant, const Branch<Scalar>& branch,
-              Scalar unit, Position& position, StateOf<Law>& state, Account& account,
+              Scalar unit, Position& position, PlantState& state, Account& account,
               Observer& observer) {
     Arc arc(model_.law, branch.direction, contact_memory(state));
     Series series(model_, instant, unit);
@@ -393,7 +447,7 @@ class EventTaylor {
   Scalar speed(const Series& series, Scalar x) const {
     constexpr Scalar slow = numeric::from_real<Scalar>(1e-12);
     const Scalar change =
-        x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.travel[2]));
+        x * (numeric::abs(series.vibration[1]) + x * numeric::abs(series.motion(2)));
     const Scalar fastest = numeric::abs(series.velocity) + numeric::abs(series.rate) * change;
     return fastest < slow ? numeric::max(fastest, numeric::min(slow, slowest(series, x)))
                           : numeric::min(fastest, Scalar(1));
@@ -412,12 +466,23 @@ class EventTaylor {
 
   /// The larger of the weighted terms of V and phi, `before` orders below the last.
   Scalar last_term(const Series& series, std::size_t before, Scalar speed) const {
-    const Scalar motion = numeric::abs(series.rate * series.travel[last_power - before]);
+    Scalar motion = numeric::abs(series.rate * series.motion(last_power - before));
+    if constexpr (moves) {
+      motion = numeric::max(motion, load_term(series, last_power - before, speed));
+    }
     if constexpr (!Law::varies) {
       return motion;
     }
     return numeric::max(motion,
                         speed * friction_weight() * numeric::abs(series.friction[Order - before]));
+  }
+
+  /// The n-th term of r. Its scale is that of r, or the other one if that is larger.
+  static Scalar load_term(const Series& series, std::size_t n, Scalar speed) {
+    const Scalar fastest =
+        numeric::abs(series.sliding_velocity[0]) + numeric::abs(series.sliding_velocity[1]);
+    const Scalar scale = numeric::max(speed, numeric::min(fastest, Scalar(1)));
+    return numeric::abs(series.sliding_velocity[n]) * (speed / scale);
   }
 
   Scalar friction_weight() const {
@@ -464,15 +529,14 @@ class EventTaylor {
 
   template <class Account, class Observer>
   void stick(const IntervalOf<Model>& interval, const At& instant, const Branch<Scalar>& branch,
-             Position& position, StateOf<Law>& state, Account& account, Observer& observer) {
+             Position& position, PlantState& state, Account& account, Observer& observer) {
     const Scalar rest_of_time = interval.duration - position.offset;
     Series series(model_, instant, numeric::min(longest_step_, rest_of_time));
     series.stick(model_);
 
     const Scalar remaining = rest_of_time / series.unit;
-    const Scalar longest =
-        step_extent(numeric::abs(series.friction[Order]), numeric::abs(series.friction[Order - 1]),
-                    Scalar(1), series, remaining);
+    const Scalar longest = step_extent(stick_term(series, Order), stick_term(series, Order - 1),
+                                       Scalar(1), series, remaining);
     Scalar extent = longest;
     for (const Scalar side : {Scalar(1), Scalar(-1)}) {
       const std::size_t zero_order = side == branch.direction ? branch.zero_order : 0;
@@ -489,6 +553,19 @@ class EventTaylor {
     accept(interval, series, friction, extent, extent == remaining, position, state, account,
            observer);
     rest(interval, position, state);
+  }
+
+  /// The n-th term of phi; of a load that of r too, over the scale of r.
+  static Scalar stick_term(const Series& series, std::size_t n) {
+    const Scalar holding = numeric::abs(series.friction[n]);
+    if constexpr (moves) {
+      constexpr Scalar slow = numeric::from_real<Scalar>(1e-12);
+      const auto& r = series.sliding_velocity;
+      const Scalar fastest = numeric::abs(r[0]) + numeric::abs(r[1]) + numeric::abs(r[2]);
+      return numeric::max(holding, numeric::abs(r[n]) / numeric::clamp(fastest, slow, Scalar(1)));
+    } else {
+      return holding;
+    }
   }
 
   /// The extent at which the last two terms reach what is allowed, or the rounding error of the
@@ -515,11 +592,11 @@ class EventTaylor {
 
   template <class Friction, class Account, class Observer>
   void accept(const IntervalOf<Model>& interval, const Series& series, const Friction& friction,
-              Scalar extent, bool last, Position& position, StateOf<Law>& state, Account& account,
+              Scalar extent, bool last, Position& position, PlantState& state, Account& account,
               Observer& observer) {
     const TaylorStep<Model, Series, Friction> taken(model_, series, friction, position.offset,
                                                     extent);
-    static_cast<State<Scalar>&>(state) = taken.end();
+    static_cast<typename Model::Motion&>(state) = taken.end();
     if constexpr (Law::remembers) {
       state.memory = friction.memory(extent);
     }
@@ -529,9 +606,8 @@ class EventTaylor {
     ++cost_.steps;
   }
 
-  void rest(const IntervalOf<Model>& interval, const Position& position, State<Scalar>& state) {
-    state.velocity =
-        model_.resting_velocity(interval.sliding_velocity + sliding_change(interval, position));
+  void rest(const IntervalOf<Model>& interval, const Position& position, PlantState& state) {
+    state.velocity = model_.resting_velocity(sliding_velocity(interval, position, state));
     ++cost_.events;
   }
 

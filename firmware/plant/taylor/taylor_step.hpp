@@ -73,7 +73,7 @@ class SlidingFriction {
     constexpr std::size_t width = numeric::lane_count<Scalar>;
     constexpr auto& rule = numeric::gauss_rule<Scalar, (order / 2 + width - 1) / width * width>;
     const auto x = extent * numeric::load_group<rule.vectors>(rule.node.data());
-    auto travel = series_.shift;
+    auto travel = series_.distances();
     travel[0] = series_.travel[0];
     travel[1] = numeric::half(series_.travel[1]);
     auto weighted = numeric::load_group<rule.vectors>(rule.weight.data()) *
@@ -114,6 +114,7 @@ template <class Model, class Series, class Friction>
 class TaylorStep {
  public:
   using Scalar = typename Series::Scalar;
+  using Motion = typename Model::Motion;
 
   /// extent: length of the step in units of the series.
   TaylorStep(const Model& model, const Series& series, const Friction& friction, Scalar begin,
@@ -122,12 +123,16 @@ class TaylorStep {
 
   Scalar begin() const { return begin_; }
   Scalar length() const { return series_.unit * extent_; }
-  State<Scalar> at(Scalar offset) const { return state(offset / series_.unit); }
-  State<Scalar> end() const { return state(extent_); }
+  Motion at(Scalar offset) const { return state(offset / series_.unit); }
+  Motion end() const { return state(extent_); }
 
   Scalar friction_integral() const { return series_.unit * friction_.integral(extent_); }
   Scalar friction_work() const { return friction_.work(extent_); }
   Scalar sliding_work() const {
+    if constexpr (Model::Sliding::moves) {
+      return quadrature(
+          [this](Scalar x) { return friction_.at(x) * series_.sliding_velocity_at(x); });
+    }
     Scalar sum = series_.sliding_velocity[0] * friction_.integral(extent_);
     if constexpr (Model::Sliding::varies) {
       sum += series_.sliding_velocity[1] * friction_.moment(extent_);
@@ -148,11 +153,45 @@ class TaylorStep {
     return sum;
   }
 
+  /// Of a load, by the same quadrature.
+  LoadIntegrals<Scalar> load_integrals() const {
+    const auto linear = [](const std::array<Scalar, 2>& line, Scalar x) {
+      return line[0] + x * line[1];
+    };
+    LoadIntegrals<Scalar> integrals;
+    integrals.force_work = quadrature(
+        [&](Scalar x) { return linear(series_.load_force, x) * series_.sliding_velocity_at(x); });
+    integrals.pull_work = quadrature([&](Scalar x) {
+      return -model_.load_stiffness * numeric::evaluate(series_.extension, x) *
+             linear(series_.pull_velocity, x);
+    });
+    integrals.velocity_square = quadrature(
+        [&](Scalar x) { return series_.sliding_velocity_at(x) * series_.sliding_velocity_at(x); });
+    return integrals;
+  }
+
  private:
   static constexpr int node_count = static_cast<int>(Series::order) / 2;
 
-  State<Scalar> state(Scalar x) const {
-    return {series_.displacement_at(x), series_.velocity_at(x), friction_.at(x)};
+  template <class Integrand>
+  Scalar quadrature(const Integrand& at) const {
+    static constexpr auto rule = numeric::gauss_legendre<node_count>();
+    Scalar sum = Scalar(0);
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      sum += numeric::from_real<Scalar>(rule.weight[i]) *
+             at(extent_ * numeric::from_real<Scalar>(rule.node[i]));
+    }
+    return length() * sum;
+  }
+
+  Motion state(Scalar x) const {
+    const State<Scalar> oscillator = {series_.displacement_at(x), series_.velocity_at(x),
+                                      friction_.at(x)};
+    if constexpr (Model::Sliding::moves) {
+      return {oscillator, series_.sliding_velocity_at(x), numeric::evaluate(series_.extension, x)};
+    } else {
+      return oscillator;
+    }
   }
 
   const Model& model_;
