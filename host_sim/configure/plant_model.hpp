@@ -44,4 +44,18 @@ auto plant_model(const Law& law, const scene::ContactValues& contact,
       plant_contact<Scalar>(law, contact, scales, numbers), numbers);
 }
 
+/// The plant of a scene with a load.
+template <class Drive, class Law>
+auto loaded_plant_model(const Law& law, const scene::Scene& scene, const scene::PlantScales& scales,
+                        const PlantNumbers& numbers) {
+  using Core = typename Law::template Core<double>;
+  using Plain = plant::Model<Core, plant::Damped<double>, Drive, plant::MovingBody>;
+  const LoadNumbers load = load_numbers(*scene.load, scene.plant.mass_kg, scales);
+  const Plain plain = {plant_contact<double>(law, scene.friction, scales, numbers),
+                       {numbers.damping},
+                       numbers.stiffness};
+  return plant::LoadedModel<Core, plant::Damped<double>, Drive>{plain, load.mass_ratio,
+                                                                load.damping, load.stiffness};
+}
+
 }  // namespace sonoglide::configure

@@ -9,6 +9,12 @@
 namespace sonoglide::configure {
 namespace {
 
+double own_rate_rad_per_s(const scene::Load& load, double contact_stiffness_N_per_m) {
+  const double stiffness_N_per_m = std::max(load.spring_N_per_m, contact_stiffness_N_per_m);
+  return std::max(std::sqrt(stiffness_N_per_m / load.mass_kg),
+                  load.damping_N_s_per_m / load.mass_kg);
+}
+
 /// Without a drive the clock is the fastest of the plant's own rates; one run where it has none.
 double own_rate_rad_per_s(const scene::Scene& scene) {
   const scene::Plant& plant = scene.plant;
@@ -16,7 +22,9 @@ double own_rate_rad_per_s(const scene::Scene& scene) {
   const double rate =
       std::max(std::sqrt(std::max(plant.stiffness_N_per_m, contact) / plant.mass_kg),
                plant.damping_N_s_per_m / plant.mass_kg);
-  return rate > 0.0 ? rate : numeric::two_pi / scene.run.duration_s;
+  const double fastest =
+      scene.load ? std::max(rate, own_rate_rad_per_s(*scene.load, contact)) : rate;
+  return fastest > 0.0 ? fastest : numeric::two_pi / scene.run.duration_s;
 }
 
 /// Size of the motion to come: the largest that the drive, the friction or the initial state can
@@ -101,6 +109,20 @@ plant::State<double> initial_state(const scene::Scene& scene, const scene::Plant
   return {scene.plant.initial_displacement_m / scales.length_m,
           scene.plant.initial_velocity_m_per_s / scales.velocity_m_per_s(),
           scales.friction_N > 0.0 ? scene.friction.initial_force_N / scales.friction_N : 0.0};
+}
+
+LoadNumbers load_numbers(const scene::Load& load, double mass_kg,
+                         const scene::PlantScales& scales) {
+  const double omega = scales.angular_frequency_rad_per_s;
+  const double inertia = load.mass_kg * omega;
+  return {mass_kg / load.mass_kg, load.damping_N_s_per_m / inertia,
+          load.spring_N_per_m / (inertia * omega)};
+}
+
+plant::LoadedState<double> initial_loaded_state(const scene::Scene& scene,
+                                                const scene::PlantScales& scales) {
+  return {initial_state(scene, scales),
+          scene.load->initial_velocity_m_per_s / scales.velocity_m_per_s(), 0.0};
 }
 
 }  // namespace sonoglide::configure

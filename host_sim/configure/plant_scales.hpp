@@ -18,11 +18,23 @@ struct PlantNumbers {
   double contact_stiffness;  ///< κ = Kt L/Fc, 0 where the law has none
 };
 
+/// Of a load (see plant::LoadedModel).
+struct LoadNumbers {
+  double mass_ratio;  ///< m/M
+  double damping;     ///< c/(M ω)
+  double stiffness;   ///< k/(M ω²)
+};
+
 scene::PlantScales plant_scales(const scene::Scene& scene);
 PlantNumbers plant_numbers(const scene::Scene& scene, const scene::PlantScales& scales);
 
+LoadNumbers load_numbers(const scene::Load& load, double mass_kg, const scene::PlantScales& scales);
+
 /// Where the run begins, in the same units.
 plant::State<double> initial_state(const scene::Scene& scene, const scene::PlantScales& scales);
+/// The same with a load.
+plant::LoadedState<double> initial_loaded_state(const scene::Scene& scene,
+                                                const scene::PlantScales& scales);
 
 /// σ in V = Vt + σ x': +1 dissipative, −1 as printed.
 constexpr double vibration_sign(scene::SignConvention convention) {

@@ -131,7 +131,7 @@ void require_wide_range(double full_scale_m_per_s, double fastest_m_per_s) {
 void require_sliding(const scene::Scene& scene, double fastest_m_per_s) {
   if (fastest_m_per_s == 0.0) {
     throw ConfigurationError(
-        "sliding.velocity_m_per_s",
+        scene.load ? "load.initial_velocity_m_per_s" : "sliding.velocity_m_per_s",
         fmt::format("is 0 all the time, where no vibration changes the friction; allowed: another "
                     "velocity with controller.vibration = \"{}\"",
                     scene::name_of(scene::vibration_controls, *scene.controller->vibration)));

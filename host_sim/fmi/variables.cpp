@@ -57,6 +57,11 @@ constexpr std::array series = {
     signal<&PlantOutputs::friction_force_N>("friction_force_N", "N",
                                             "Friction force at the end of the carrier period")};
 
+/// Of a scene with a load.
+constexpr std::array of_load = {
+    signal<&PlantOutputs::load_displacement_m>(
+        "load_displacement_m", "m", "Displacement of the load at the end of the carrier period")};
+
 class List {
  public:
   List() { add({"time", Role::time, "s", "Simulation time", 0.0}); }
@@ -221,12 +226,20 @@ std::vector<Variable> variables(const configure::Experiment& experiment, loop::K
         "other target was given",
         0.0, &Inputs::target_friction_ratio);
   }
+  if (loop::has_plant(kind) && scene.load) {
+    list.input("load_force_N", "N",
+               "Force on the load during a carrier period, beside that of the scene", 0.0,
+               &Inputs::load_force_N);
+  }
   if (loop::has_plant(kind)) {
     list.outputs(measured);
     if (scene.demodulates()) {
       list.outputs(demodulated);
     }
     list.outputs(series);
+    if (scene.load) {
+      list.outputs(of_load);
+    }
   }
   if (loop::has_controller(kind)) {
     add_controller_outputs(list, scene);

@@ -53,6 +53,7 @@ PlantPeriod Engine::begun(double amplitude_N) const {
 PlantPeriod Engine::move(double amplitude_N, double bias_N) {
   PlantPeriod period = begun(amplitude_N);
   period.begin_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+  period.begin_load_displacement_m = plant_->load_displacement_m();
   const bool biased = control_ && control_->answers_with_bias();
   const double begin_m = biased ? plant_->state().displacement_m : 0.0;
   const EnergyBalance energy = plant_->advance(amplitude_N, bias_N);

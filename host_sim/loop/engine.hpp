@@ -44,6 +44,9 @@ class Engine {
   /// Of that period, where the scene's carrier changes.
   void set_frequency_Hz(double frequency_Hz) { clock_.set_frequency_Hz(frequency_Hz); }
 
+  /// On a load from here on, beside that of the scene.
+  void set_load_force_N(double force_N) { plant_->set_load_force_N(force_N); }
+
   /// That period, but for what the plant does in it.
   PlantPeriod begun(double amplitude_N) const;
 

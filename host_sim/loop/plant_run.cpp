@@ -12,6 +12,12 @@
 namespace sonoglide::loop {
 namespace {
 
+void add_times(const scene::TimedProfile& profile, std::vector<double>& times_s) {
+  for (const scene::TimedValue& row : profile) {
+    times_s.push_back(row.time_s);
+  }
+}
+
 /// Where the sliding, the friction or the spring changes its course, or a window begins; rising.
 std::vector<double> cuts_of(const scene::Scene& scene, const SlidingProfile& sliding) {
   std::vector<double> cuts_s = sliding.cuts_s();
@@ -19,9 +25,10 @@ std::vector<double> cuts_of(const scene::Scene& scene, const SlidingProfile& sli
   for (const scene::TimedProfile* profile :
        {&scene.plant.stiffness_profile, &scene.friction.coefficient_profile,
         &scene.friction.normal_force_profile_N}) {
-    for (const scene::TimedValue& row : *profile) {
-      cuts_s.push_back(row.time_s);
-    }
+    add_times(*profile, cuts_s);
+  }
+  if (scene.load) {
+    add_times(scene.load->force_profile_N, cuts_s);
   }
   std::sort(cuts_s.begin(), cuts_s.end());
   return cuts_s;
@@ -45,15 +52,15 @@ PlantRun::PlantRun(const scene::Scene& scene, const CarrierClock& clock, const W
       result_(result),
       meter_(plant::max_steps_per_advance, pulse(watch, clock, scene.run.duration_s)),
       plant_(make_plant_port(scene)),
-      sliding_(scene.sliding),
+      sliding_(SlidingProfile::of(scene)),
       undriven_(scene),
       waveform_(scene.drive ? scene.drive->waveform : scene::Waveform::cosine),
       energies_(watch.energies || scene.transducer.has_value()),
-      sliding_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
+      given_velocity_m_per_s_(sliding_.velocity_m_per_s(0.0)),
       drive_(scene, 0.0, 0.0, 0.0),
       force_(scene),
       cuts_s_(cuts_of(scene, sliding_)),
-      sampler_(watch.samples) {
+      sampler_(watch.samples, scene.load.has_value()) {
   if (scene.transducer) {
     result.electrical.emplace();
   }
@@ -91,6 +98,23 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   result_.whole.append(total);
   note_peaks(end_s, total);
   return total;
+}
+
+double PlantRun::sliding_velocity_m_per_s() const {
+  return scene_.load ? plant_->state().load_velocity_m_per_s : given_velocity_m_per_s_;
+}
+
+double PlantRun::load_displacement_m() const {
+  return scene_.load ? plant_->state().load_extension_m + pulled_m_ : 0.0;
+}
+
+Line PlantRun::load_force(double begin_s, double duration_s) const {
+  if (!scene_.load) {
+    return {};
+  }
+  Line force_N = line_over(scene_.load->force_profile_N, 0.0, begin_s, duration_s);
+  force_N.middle += added_load_force_N_;
+  return force_N;
 }
 
 bool PlantRun::in_window(double begin_s) const {
@@ -133,7 +157,8 @@ void PlantRun::piece(double begin_s, double from_s, double until_s, double end_s
 }
 
 void PlantRun::save(SnapshotWriter& state) const {
-  state.put(sliding_velocity_m_per_s_);
+  state.put(given_velocity_m_per_s_);
+  state.put(pulled_m_);
   state.put(drive_);
   state.put(next_cut_);
   force_.save(state);
@@ -141,7 +166,8 @@ void PlantRun::save(SnapshotWriter& state) const {
 }
 
 void PlantRun::restore(SnapshotReader& state) {
-  state.get(sliding_velocity_m_per_s_);
+  state.get(given_velocity_m_per_s_);
+  state.get(pulled_m_);
   state.get(drive_);
   state.get(next_cut_);
   force_.restore(state);
@@ -150,6 +176,7 @@ void PlantRun::restore(SnapshotReader& state) {
 
 void PlantRun::finish() {
   result_.final_state = plant_->state();
+  result_.final_load_displacement_m = load_displacement_m();
   result_.final_time_s = scene_.run.duration_s;
   result_.solver_steps = plant_->cost().steps;
   result_.solver_events = plant_->cost().events;
@@ -157,8 +184,9 @@ void PlantRun::finish() {
 
 EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_phase_rad,
                                 double end_s, const DrivePart& drive) {
-  const double first = sliding_velocity_m_per_s_;
+  const double first = given_velocity_m_per_s_;
   const double last = sliding_.velocity_m_per_s(end_s);
+  const Line load_force_N = load_force(begin_s, duration_s);
   const Stretch stretch{duration_s,
                         drive_phase_rad,
                         clock_.drive_rate_rad_per_s(),
@@ -171,7 +199,10 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
                         begin_s,
                         scene_.demodulates(),
                         energies_,
-                        &meter_};
+                        &meter_,
+                        load_force_N.at(-0.5 * duration_s),
+                        load_force_N.slope_per_s,
+                        undriven_.is_limit() ? nullptr : &undriven_};
   EnergyBalance energy;
   try {
     const plant::Outcome<double> outcome = solve(begin_s, end_s, stretch, energy);
@@ -185,7 +216,8 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
   energy.normal_impulse_N_s =
       energy.load_s *
       configure::contact_at(scene_.friction, begin_s + 0.5 * duration_s).normal_force_N;
-  sliding_velocity_m_per_s_ = last;
+  given_velocity_m_per_s_ = last;
+  pulled_m_ += 0.5 * (first + last) * duration_s;
   if (in_window(begin_s)) {
     result_.window.append(energy);
     if (scene_.transducer) {
@@ -205,7 +237,7 @@ plant::Outcome<double> PlantRun::solve(double begin_s, double end_s, const Stret
   seen_.clear();
   const plant::Outcome<double> outcome = plant_->advance_sampled(stretch, offsets_s, energy, seen_);
   if (outcome.error == plant::Error::none) {
-    sampler_.deliver(begin_s, stretch, seen_);
+    sampler_.deliver(begin_s, stretch, seen_, pulled_m_);
   }
   return outcome;
 }

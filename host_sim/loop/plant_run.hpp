@@ -9,14 +9,15 @@
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/loop/force_sampler.hpp"
+#include "host_sim/loop/plant/course.hpp"
 #include "host_sim/loop/plant/energy.hpp"
 #include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/plant/sliding_profile.hpp"
 #include "host_sim/loop/plant/step_meter.hpp"
+#include "host_sim/loop/plant/undriven_friction.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/sampler.hpp"
-#include "host_sim/loop/undriven_friction.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {
@@ -29,7 +30,12 @@ class PlantRun {
            RunResult& result);
 
   /// Where the last call of advance() ended.
-  double sliding_velocity_m_per_s() const { return sliding_velocity_m_per_s_; }
+  double sliding_velocity_m_per_s() const;
+  /// Of a load, since the run began; 0 without one.
+  double load_displacement_m() const;
+
+  /// On a load from here on, beside that of its profile.
+  void set_load_force_N(double force_N) { added_load_force_N_ = force_N; }
 
   /// Advances over the carrier period of the clock, under one drive amplitude, to which that of the
   /// period before passes as the scene says.
@@ -60,6 +66,7 @@ class PlantRun {
                         const DrivePart& drive);
   plant::Outcome<double> solve(double begin_s, double end_s, const Stretch& stretch,
                                EnergyBalance& energy);
+  Line load_force(double begin_s, double duration_s) const;
   void note_peaks(double end_s, const EnergyBalance& period);
   bool in_window(double begin_s) const;
   [[noreturn]] void fail(plant::Error error, double time_s) const;
@@ -73,7 +80,9 @@ class PlantRun {
   UndrivenFriction undriven_;
   scene::Waveform waveform_;
   bool energies_;
-  double sliding_velocity_m_per_s_;
+  double given_velocity_m_per_s_;  ///< of the sliding, or of the pulled end of a load's spring
+  double pulled_m_ = 0.0;          ///< its integral since the run began
+  double added_load_force_N_ = 0.0;
   PeriodDrive drive_;  ///< of the last period
   ForceSampler force_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end

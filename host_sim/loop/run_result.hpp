@@ -65,6 +65,7 @@ struct ControlRecord {
 /// As large after an hour as after a millisecond; what has a course is for a Watch.
 struct RunResult {
   PlantState final_state{};
+  double final_load_displacement_m = 0.0;  ///< 0 without a load
   double final_time_s = 0.0;
   std::uint64_t solver_steps = 0;
   std::uint64_t solver_events = 0;

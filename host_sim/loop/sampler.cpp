@@ -19,7 +19,7 @@ std::uint64_t sample_count(const SampleGrid& grid) {
 
 }  // namespace
 
-Sampler::Sampler(const std::vector<Sampling>& wanted) {
+Sampler::Sampler(const std::vector<Sampling>& wanted, bool has_load) : has_load_(has_load) {
   for (const Sampling& sampling : wanted) {
     requests_.push_back({sampling.grid, sample_count(sampling.grid), sampling.sink});
   }
@@ -45,13 +45,17 @@ const std::vector<double>& Sampler::plan(double begin_s, double end_s, bool last
   return offsets_s_;
 }
 
-void Sampler::deliver(double begin_s, const Stretch& stretch,
-                      const std::vector<PlantState>& seen) const {
+void Sampler::deliver(double begin_s, const Stretch& stretch, const std::vector<PlantState>& seen,
+                      double pulled_m) const {
   for (std::size_t i = 0; i < planned_.size(); ++i) {
     const double offset_s = planned_[i].offset_s;
-    planned_[i].sink->take(
-        {begin_s + offset_s, seen[i], drive_force_N(stretch, offset_s),
-         stretch.sliding_velocity_m_per_s + stretch.sliding_acceleration_m_per_s2 * offset_s});
+    const double given_m_per_s =
+        stretch.sliding_velocity_m_per_s + stretch.sliding_acceleration_m_per_s2 * offset_s;
+    const double pulled_here_m =
+        pulled_m + 0.5 * (stretch.sliding_velocity_m_per_s + given_m_per_s) * offset_s;
+    planned_[i].sink->take({begin_s + offset_s, seen[i], drive_force_N(stretch, offset_s),
+                            has_load_ ? seen[i].load_velocity_m_per_s : given_m_per_s,
+                            has_load_ ? seen[i].load_extension_m + pulled_here_m : 0.0});
   }
 }
 

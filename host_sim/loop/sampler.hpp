@@ -11,7 +11,8 @@ namespace sonoglide::loop {
 /// Serves samplings from the stretches of a run as they are simulated, in order.
 class Sampler {
  public:
-  explicit Sampler(const std::vector<Sampling>& wanted);
+  /// @param has_load  the sliding velocity is a part of the state
+  explicit Sampler(const std::vector<Sampling>& wanted, bool has_load = false);
 
   /// False where nothing is wanted before end_s: plan() and deliver() may be left out then.
   bool wants_before(double end_s) const { return next_s_ < end_s; }
@@ -21,7 +22,9 @@ class Sampler {
   const std::vector<double>& plan(double begin_s, double end_s, bool last);
 
   /// Hands on the states at the offsets that were last planned.
-  void deliver(double begin_s, const Stretch& stretch, const std::vector<PlantState>& seen) const;
+  /// @param pulled_m  what the far end of a load's spring has moved before the stretch
+  void deliver(double begin_s, const Stretch& stretch, const std::vector<PlantState>& seen,
+               double pulled_m = 0.0) const;
 
  private:
   struct Request {
@@ -42,6 +45,7 @@ class Sampler {
 
   void foresee();
 
+  bool has_load_;
   std::vector<Request> requests_;
   std::vector<Planned> planned_;
   std::vector<double> offsets_s_;

@@ -23,7 +23,10 @@ Stretch half_period(const scene::Scene& scene, int n, StepMeter& meter) {
   Stretch half;
   half.duration_s = duration_s;
   half.begin_s = n * duration_s;
-  half.sliding_velocity_m_per_s = SlidingProfile(scene.sliding).velocity_m_per_s(half.begin_s);
+  half.sliding_velocity_m_per_s = SlidingProfile::of(scene).velocity_m_per_s(half.begin_s);
+  if (scene.load && !scene.load->force_profile_N.empty()) {
+    half.load_force_N = scene::value_at(scene.load->force_profile_N, half.begin_s);
+  }
   half.meter = &meter;
   if (scene.drive) {
     const scene::Drive& drive = *scene.drive;

@@ -84,6 +84,9 @@ void SteppedScene::advance(const Inputs& inputs) {
   const double amplitude_N =
       port_ ? engine_.control()->amplitude_N() : inputs.drive_force_amplitude_N;
   const double bias_N = port_ ? engine_.control()->bias_N() : 0.0;
+  if (has_plant()) {
+    engine_.set_load_force_N(inputs.load_force_N);
+  }
   PlantPeriod period = has_plant() ? engine_.move(amplitude_N, bias_N) : engine_.begun(amplitude_N);
   if (has_plant()) {
     show_plant(period);
@@ -117,6 +120,7 @@ void SteppedScene::show_plant(const PlantPeriod& period) {
   plant_outputs_.displacement_m = state.displacement_m;
   plant_outputs_.velocity_m_per_s = state.velocity_m_per_s;
   plant_outputs_.friction_force_N = state.friction_force_N;
+  plant_outputs_.load_displacement_m = engine_.plant()->load_displacement_m();
 }
 
 void SteppedScene::show_controller() {

@@ -43,6 +43,7 @@ struct PlantOutputs {
   double displacement_m = 0.0;
   double velocity_m_per_s = 0.0;
   double friction_force_N = 0.0;
+  double load_displacement_m = 0.0;  ///< 0 without a load
 };
 
 /// What the controller answers at the end of a carrier period.
@@ -59,6 +60,7 @@ struct Inputs {
   double drive_frequency_Hz = 0.0;       ///< likewise, where the scene's carrier changes
   PlantOutputs seen;                     ///< by a controller without its plant
   double target_friction_ratio = 0.0;    ///< 0: the scene's own steps
+  double load_force_N = 0.0;             ///< on a load, beside that of the scene
 };
 
 /// What of a scene cannot be stepped.

@@ -21,6 +21,7 @@ struct Period {
   double friction_ratio = undefined;
   double begin_velocity_m_per_s = 0.0;  ///< sliding
   double end_velocity_m_per_s = 0.0;
+  double begin_load_displacement_m = 0.0;  ///< 0 without a load
   double drive_amplitude_N = 0.0;  ///< in force during it, at its end where it passes linearly
   double frequency_Hz = 0.0;       ///< likewise, of the carrier; 0 without a drive
   double bias_N = 0.0;             ///< likewise: the force that is constant over it
@@ -55,6 +56,7 @@ struct PlantSample {
   PlantState state;
   double drive_force_N;
   double sliding_velocity_m_per_s;
+  double load_displacement_m = 0.0;  ///< 0 without a load
 };
 
 /// Takes samples in the order of time.
@@ -77,12 +79,14 @@ struct Recording final : SampleSink {
   std::vector<PlantState> state;
   std::vector<double> drive_force_N;
   std::vector<double> sliding_velocity_m_per_s;
+  std::vector<double> load_displacement_m;
 
   void take(const PlantSample& sample) override {
     time_s.push_back(sample.time_s);
     state.push_back(sample.state);
     drive_force_N.push_back(sample.drive_force_N);
     sliding_velocity_m_per_s.push_back(sample.sliding_velocity_m_per_s);
+    load_displacement_m.push_back(sample.load_displacement_m);
   }
 };
 

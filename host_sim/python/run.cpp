@@ -130,6 +130,8 @@ py::array trace_column(const loop::Recording& trace, scene::Channel channel,
       return column(trace.state, &PlantState::friction_force_N, owner);
     case scene::Channel::drive_force:
       return column(trace.drive_force_N, owner);
+    case scene::Channel::load_displacement:
+      return column(trace.load_displacement_m, owner);
     case scene::Channel::sliding_velocity:
       break;
   }

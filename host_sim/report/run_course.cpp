@@ -111,9 +111,13 @@ output::Section course_section(const scene::Scene& scene, const Course::Curve& c
         {series("bias", Course::bias_N), level("largest", time, scene.drive->bias_limit_N),
          level("smallest", time, -scene.drive->bias_limit_N)});
   }
-  if (scene.sliding.profile.size() > 1) {
+  if (scene.load || scene.sliding.profile.size() > 1) {
     add("Sliding velocity", "", "Sliding velocity [m/s]",
         {series("sliding", Course::sliding_velocity_m_per_s)});
+  }
+  if (scene.load) {
+    add("Displacement of the load", "", "Displacement [m]",
+        {series("displacement", Course::load_displacement_m)});
   }
   return section;
 }

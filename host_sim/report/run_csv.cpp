@@ -36,6 +36,8 @@ double value_of(const loop::PlantSample& sample, scene::Channel channel) {
       return sample.state.friction_force_N;
     case scene::Channel::drive_force:
       return sample.drive_force_N;
+    case scene::Channel::load_displacement:
+      return sample.load_displacement_m;
     case scene::Channel::sliding_velocity:
       break;
   }

@@ -27,6 +27,7 @@ class Course final : public loop::PeriodSink {
     drive_amplitude_N,
     sliding_velocity_m_per_s,
     bias_N,
+    load_displacement_m,
     ordinates
   };
   using Curve = report::ExtremesCurve<ordinates>;

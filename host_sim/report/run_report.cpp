@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json power(const loop::PowerRatios& window) {
-  return {
+ordered_json power(const loop::PowerRatios& window, bool has_load) {
+  ordered_json json = {
       {"pull_ratio", output::json_number(window.pull_ratio)},
       {"dissipation_ratio", output::json_number(window.dissipation_ratio)},
       {"drive_input_ratio", output::json_number(window.drive_input_ratio)},
@@ -26,6 +26,23 @@ ordered_json power(const loop::PowerRatios& window) {
       {"damping_ratio", output::json_number(window.damping_ratio)},
       {"balance_residual", output::json_number(window.balance_residual)},
       {"as_printed", {{"dissipation_ratio", output::json_number(window.dissipation_as_printed)}}}};
+  if (has_load) {
+    json["load_force_ratio"] = output::json_number(window.load_force_ratio);
+    json["load_spring_pull_ratio"] = output::json_number(window.load_spring_pull_ratio);
+    json["load_damping_ratio"] = output::json_number(window.load_damping_ratio);
+    json["load_stored_change_ratio"] = output::json_number(window.load_stored_change_ratio);
+  }
+  return json;
+}
+
+ordered_json load(const loop::RunResult& result) {
+  const loop::LoadBalance& window = result.window.load;
+  return {{"final_velocity_m_per_s", result.final_state.load_velocity_m_per_s},
+          {"final_displacement_m", result.final_load_displacement_m},
+          {"force_work_J", window.force_work_J},
+          {"spring_pull_work_J", window.spring_pull_work_J},
+          {"damping_work_J", window.damping_work_J},
+          {"stored_change_J", window.change_J()}};
 }
 
 ordered_json electrical(const loop::ElectricalFigures& figures) {
@@ -233,7 +250,10 @@ ordered_json summary(const configure::Experiment& experiment, const loop::RunRes
   json["friction_ratio"] = {
       {"whole_run", output::json_number(loop::power_ratios(scene, result.whole).friction_ratio)},
       {"window", output::json_number(window.friction_ratio)}};
-  json["power"] = power(window);
+  json["power"] = power(window, scene.load.has_value());
+  if (scene.load) {
+    json["load"] = load(result);
+  }
   if (scene::is<scene::laws::NormalCoulomb>(scene.friction.law)) {
     json["contact"] = contact(scene, result);
   }
@@ -381,10 +401,17 @@ std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result)
   if (scene.friction.largest_limit_N() == 0.0) {
     return "no friction, so no friction ratio\n";
   }
-  return fmt::format("friction ratio {:.6f} over the whole run, {:.6f} from {:.6g} s on\n",
-                     loop::power_ratios(scene, result.whole).friction_ratio,
-                     loop::power_ratios(scene, result.window).friction_ratio,
+  return fmt::format("friction ratio {} over the whole run, {} from {:.6g} s on\n",
+                     figure("{:.6f}", loop::power_ratios(scene, result.whole).friction_ratio),
+                     figure("{:.6f}", loop::power_ratios(scene, result.window).friction_ratio),
                      scene.run.window_start_s);
+}
+
+std::string load_line(const scene::Scene& scene, const loop::RunResult& result) {
+  return scene.load
+             ? fmt::format("load at {:.6g} m, {:.6g} m/s\n", result.final_load_displacement_m,
+                           result.final_state.load_velocity_m_per_s)
+             : "";
 }
 
 }  // namespace
@@ -393,7 +420,7 @@ std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
   const std::string lines =
       (scene.controller ? step_lines(scene, result, findings) : ratio_line(scene, result)) +
-      electrical_line(result) + note_lines(scene, result);
+      load_line(scene, result) + electrical_line(result) + note_lines(scene, result);
   return fmt::format("{}{}{:.6g} ms simulated with {} in {:.3g} ms, {:.3g} times real time\n",
                      lines, result.image ? image_lines(*result.image) : "",
                      result.final_time_s * 1e3, scene::name_of(scene.solver.method),

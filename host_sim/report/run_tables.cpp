@@ -74,19 +74,34 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
   const auto row = [&table](const char* name, std::string value) {
     table.rows.push_back({name, std::move(value)});
   };
-  row("Undriven friction force, window [N]",
-      fmt::format("{:.6g}", scene.friction.largest_limit_N() * result.window.undriven_s /
-                                result.window.duration_s));
+  if (!scene.load) {
+    row("Undriven friction force, window [N]",
+        fmt::format("{:.6g}", scene.friction.largest_limit_N() * result.window.undriven_s /
+                                  result.window.duration_s));
+  }
   if (scene.friction.largest_limit_N() > 0.0) {
     row("Friction ratio, whole run",
-        fmt::format("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
-    row("Friction ratio, window", fmt::format("{:.9f}", window.friction_ratio));
+        figure("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
+    row("Friction ratio, window", figure("{:.9f}", window.friction_ratio));
     row("Power of the pull over that of the friction limit, window",
-        fmt::format("{:.6f}", window.pull_ratio));
-    row("Power dissipation ratio, window", fmt::format("{:.6f}", window.dissipation_ratio));
-    row("Drive input ratio, window", fmt::format("{:.6f}", window.drive_input_ratio));
+        figure("{:.6f}", window.pull_ratio));
+    row("Power dissipation ratio, window", figure("{:.6f}", window.dissipation_ratio));
+    row("Drive input ratio, window", figure("{:.6f}", window.drive_input_ratio));
     row("Change of stored energy, window", figure("{:.6f}", window.stored_change_ratio));
-    row("Damping, window", fmt::format("{:.6f}", window.damping_ratio));
+    row("Damping, window", figure("{:.6f}", window.damping_ratio));
+    if (scene.load) {
+      row("Force on the load, window", figure("{:.6f}", window.load_force_ratio));
+      row("Pulled end of the load's spring, window",
+          figure("{:.6f}", window.load_spring_pull_ratio));
+      row("Damping of the load, window", figure("{:.6f}", window.load_damping_ratio));
+      row("Change of the load's energy, window", figure("{:.6f}", window.load_stored_change_ratio));
+    }
+  }
+  if (scene.load) {
+    row("Velocity of the load at the end",
+        output::quantity(result.final_state.load_velocity_m_per_s, "m/s"));
+    row("Displacement of the load at the end",
+        output::quantity(result.final_load_displacement_m, "m"));
   }
   if (scene::is<scene::laws::NormalCoulomb>(scene.friction.law)) {
     const ContactLoadFigures load = contact_load(result.window);

@@ -20,7 +20,7 @@ double speed_m_per_s(const scene::Scene& scene, double time_s) {
 }  // namespace
 
 bool may_excite_itself(const scene::Scene& scene) {
-  return scene.drive && scene.drive->waveform == scene::Waveform::cosine &&
+  return scene.drive && !scene.load && scene.drive->waveform == scene::Waveform::cosine &&
          scene.profile_key() == nullptr && steady::friction_falls(scene.friction);
 }
 

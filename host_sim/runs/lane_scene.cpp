@@ -15,7 +15,7 @@ bool has_method_of_lanes(const scene::Solver& solver) {
 }
 
 bool suits_lanes(const scene::Scene& scene) {
-  return scene.run.start == scene::Start::given && scene.drive &&
+  return scene.run.start == scene::Start::given && scene.drive && !scene.load &&
          scene.drive->waveform == scene::Waveform::cosine && scene.drive->codes_per_period == 1 &&
          scene.drive->bias_limit_N == 0.0 && scene::is<scene::laws::Dahl>(scene.friction.law) &&
          scene.friction.limit_N() > 0.0 && scene.profile_key() == nullptr &&

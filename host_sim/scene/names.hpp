@@ -40,12 +40,13 @@ inline constexpr std::array<Named<Start>, 2> starts = {{
     {"steady", Start::steady},
 }};
 
-inline constexpr std::array<Named<Channel>, 5> channels = {{
+inline constexpr std::array<Named<Channel>, 6> channels = {{
     {"displacement_m", Channel::displacement},
     {"velocity_m_per_s", Channel::velocity},
     {"friction_force_N", Channel::friction_force},
     {"drive_force_N", Channel::drive_force},
     {"sliding_velocity_m_per_s", Channel::sliding_velocity},
+    {"load_displacement_m", Channel::load_displacement},
 }};
 
 inline constexpr std::array<Named<Arithmetic>, 4> arithmetics = {{

@@ -30,6 +30,20 @@ double Sliding::fastest_m_per_s() const {
   return fastest;
 }
 
+double Load::fastest_m_per_s() const {
+  double fastest = initial_velocity_m_per_s;
+  const auto compare = [&fastest](double velocity_m_per_s) {
+    fastest = std::abs(velocity_m_per_s) > std::abs(fastest) ? velocity_m_per_s : fastest;
+  };
+  for (const SpeedPoint& point : pull_profile_m_per_s) {
+    compare(point.velocity_m_per_s);
+  }
+  for (const TimedValue& row : force_profile_N) {
+    compare(damping_N_s_per_m > 0.0 ? row.value / damping_N_s_per_m : 0.0);
+  }
+  return fastest;
+}
+
 double Friction::largest_limit_N() const {
   const ContactValues& given = *this;
   ContactValues most = given;

@@ -79,6 +79,21 @@ struct Sliding {
   double fastest_m_per_s() const;
 };
 
+/// A body of its own mass M that slides, in place of a sliding velocity that is given:
+///   M dVt/dt = Fa - c Vt - k (x - ∫vp dt) - F,  F the friction.
+struct Load {
+  double mass_kg = 0.0;
+  double damping_N_s_per_m = 0.0;
+  double initial_velocity_m_per_s = 0.0;
+  TimedProfile force_profile_N;                  ///< Fa; empty: 0
+  double spring_N_per_m = 0.0;                   ///< k
+  std::vector<SpeedPoint> pull_profile_m_per_s;  ///< vp, of the far end of the spring; empty: 0
+
+  /// What a controller is designed for: of the initial velocity, those of the pulled end, and the one that
+  /// the damper allows under the force, the one of the largest modulus.
+  double fastest_m_per_s() const;
+};
+
 /// Of the force, with its peak A at phase 0: the square is A up to half a period and -A beyond, the
 /// triangle falls to -A at half a period and rises again, the sawtooth falls over the whole period.
 enum class Waveform { cosine, square, triangle, sawtooth };
@@ -151,7 +166,14 @@ struct Solver {
   double step_s = 0.0;
 };
 
-enum class Channel { displacement, velocity, friction_force, drive_force, sliding_velocity };
+enum class Channel {
+  displacement,
+  velocity,
+  friction_force,
+  drive_force,
+  sliding_velocity,
+  load_displacement
+};
 
 /// given: the initial state that the scene gives. steady: on the periodic steady orbit.
 enum class Start { given, steady };
@@ -266,7 +288,8 @@ struct Scene {
   std::string name;  ///< the file's name without its ending
   Plant plant;
   Friction friction;
-  Sliding sliding;
+  Sliding sliding;           ///< with a load the velocity that a controller is designed for
+  std::optional<Load> load;  ///< absent: the sliding velocity is given
   std::optional<Transducer> transducer;  ///< absent: the drive is a force
   std::optional<Drive> drive;
   Solver solver;

@@ -26,6 +26,9 @@ bool follows_straight_drives(SolverMethod method);
 /// The only order in which it does, of a method whose order a scene may choose.
 std::optional<int> straight_order(SolverMethod method);
 
+/// Whether it solves a [load] with its friction.
+bool moves_load(SolverMethod method);
+
 /// Whether it notices reversals, sticks and releases.
 bool counts_events(SolverMethod method);
 

@@ -47,6 +47,10 @@ std::optional<int> straight_order(SolverMethod method) {
   });
 }
 
+bool moves_load(SolverMethod method) {
+  return with_solver(method, [](auto solver) { return solves_load<decltype(solver)>; });
+}
+
 bool counts_events(SolverMethod method) {
   return with_solver(method, [](auto solver) { return decltype(solver)::counts_events; });
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "host_sim/scene/names.hpp"
@@ -70,6 +71,22 @@ constexpr std::size_t solver_index(std::string_view name) {
   }
   return index;
 }
+
+namespace detail {
+
+template <template <class, int> class Core>
+struct Names;
+template <class Described, class = void>
+inline constexpr bool has_loaded_core = false;
+template <class Described>
+inline constexpr bool
+    has_loaded_core<Described, std::void_t<Names<Described::template LoadedCore>*>> = true;
+
+}  // namespace detail
+
+/// Whether a solver takes a [load].
+template <class Described>
+inline constexpr bool solves_load = detail::has_loaded_core<Described>;
 
 template <class Described>
 inline constexpr SolverMethod method_of{solver_index(Described::name)};

@@ -82,6 +82,29 @@ void check_sliding(const TableCursor& cursor, const Variant& /*variant*/, scene:
                scene.friction.law);
 }
 
+/// What is not solved together with a body of its own.
+void check_load(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
+  const friction::Vibration vibration = scene::vibration_of(scene.friction.law);
+  if (vibration != friction::Vibration::along) {
+    cursor.fail(
+        fmt::format("not used with friction.law = \"{}\": {}; allowed: a law of friction "
+                    "along the vibration",
+                    scene::name_of(scene.friction.law),
+                    vibration == friction::Vibration::across
+                        ? "a body at rest in such a contact is not modelled"
+                        : "such a contact is solved at a velocity that is given"));
+  }
+  if (scene.friction.sign_convention != scene::SignConvention::dissipative) {
+    cursor.fail(
+        "not used with friction.sign_convention = \"as_printed\", under which the friction "
+        "on the body has no reaction; allowed: \"dissipative\"");
+  }
+  if (const char* key = scene.profile_key()) {
+    cursor.fail(fmt::format("not used with {}; allowed: a constant value in its place", key));
+  }
+  scene.sliding.profile = {{0.0, scene.load->fastest_m_per_s()}};
+}
+
 void check_drive(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
   settle_frequency(cursor, *scene.drive);
   require_binary_parts(cursor, scene.drive->codes_per_period);
@@ -95,8 +118,9 @@ struct TableCheck {
   void (*check)(const TableCursor&, const Variant&, scene::Scene&);
 };
 
-constexpr std::array<TableCheck, 7> table_checks = {{{"friction", check_friction},
+constexpr std::array<TableCheck, 8> table_checks = {{{"friction", check_friction},
                                                      {"sliding", check_sliding},
+                                                     {"load", check_load},
                                                      {"drive", check_drive},
                                                      {"solver", check_solver},
                                                      {"run", check_run},
@@ -107,8 +131,11 @@ constexpr std::array<TableCheck, 7> table_checks = {{{"friction", check_friction
 
 void check_presence(const TableCursor& cursor, const scene::Scene& scene) {
   const KeyTable& table = cursor.keys();
-  if (!cursor.present() && table.required) {
-    cursor.fail(fmt::format("missing; required: a table [{}]", table.name));
+  const bool needed = table.required && (table.has == nullptr || table.has(scene));
+  if (!cursor.present() && needed) {
+    const bool sliding = table.name == "sliding";
+    cursor.fail(
+        fmt::format("missing; required: a table [{}]{}", table.name, sliding ? ", or [load]" : ""));
   }
   if (!cursor.present() && table.name == "drive" && scene.controller) {
     cursor.fail("missing; required: a table [drive] for the [controller] to act by");

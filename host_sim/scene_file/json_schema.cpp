@@ -137,8 +137,9 @@ std::string json_schema() {
                       {"title", "Scene of sonoglide"},
                       {"type", "object"},
                       {"additionalProperties", false}};
+  schema["oneOf"] = {{{"required", {"sliding"}}}, {{"required", {"load"}}}};
   for (const KeyTable& table : key_tables()) {
-    if (table.required) {
+    if (table.required && table.has == nullptr) {
       schema["required"].push_back(table.name);
     }
     schema["properties"][std::string(table.name)] = table_schema(table);

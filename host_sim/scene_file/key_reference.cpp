@@ -145,7 +145,7 @@ std::string methods_of_laws() {
 
 std::string section(const KeyTable& table) {
   std::string text = fmt::format("\n## `[{}]`\n\n{}{}\n\n", table.name, sentence(table.meaning),
-                                 table.required ? " Required." : "");
+                                 table.required && table.has == nullptr ? " Required." : "");
   if (table.of_others) {
     return text + keys_in_words(table);
   }

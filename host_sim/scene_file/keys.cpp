@@ -62,7 +62,12 @@ std::vector<KeyTable> plain_tables() {
   return {
       {"plant", true, "the mass that vibrates, on a spring and a damper", plant_keys()},
       {"friction", true, "the contact and its friction law", friction_keys()},
-      {"sliding", true, "how the body slides over the contact", sliding_keys()},
+      {"sliding", true, "how the body slides over the contact; or a table [load]", sliding_keys(),
+       uses::no_load, nullptr, [](const Scene& scene) { return !scene.load; }},
+      {"load", false,
+       "a body of its own mass that slides, in place of [sliding]: M dVt/dt = Fa - c Vt - k (x - ∫v_pull dt) - F, F "
+       "the friction, which acts on the vibrating mass in the opposite direction",
+       load_keys(), uses::always, add<&Scene::load>, has<&Scene::load>},
       {"transducer", false,
        "the piezo transducer between amplifier and mass; without this table the drive is a force",
        transducer_keys(), uses::a_drive, add<&Scene::transducer>, has<&Scene::transducer>},
@@ -113,7 +118,7 @@ std::vector<Variable> variables(const std::vector<KeyTable>& tables) {
   static std::deque<std::string> names;
   std::vector<Variable> all;
   for (const KeyTable& table : tables) {
-    constexpr std::array varied = {"plant", "friction", "transducer", "drive", "sensor"};
+    constexpr std::array varied = {"plant", "friction", "load", "transducer", "drive", "sensor"};
     if (std::find(varied.begin(), varied.end(), table.name) == varied.end()) {
       continue;
     }

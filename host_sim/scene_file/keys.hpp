@@ -31,6 +31,7 @@ std::string_view unit_of(const Key& key);
 std::vector<Key> plant_keys();
 std::vector<Key> friction_keys();
 std::vector<Key> sliding_keys();
+std::vector<Key> load_keys();
 std::vector<Key> transducer_keys();
 std::vector<Key> drive_keys();
 std::vector<Key> solver_keys();

@@ -50,6 +50,8 @@ inline constexpr auto* of_plant = &of<&scene::Scene::plant, Value>;
 template <auto Value>
 inline constexpr auto* of_friction = &of<&scene::Scene::friction, Value>;
 template <auto Value>
+inline constexpr auto* of_load = &of<&scene::Scene::load, Value>;
+template <auto Value>
 inline constexpr auto* of_transducer = &of<&scene::Scene::transducer, Value>;
 template <auto Value>
 inline constexpr auto* of_drive = &of<&scene::Scene::drive, Value>;

@@ -12,7 +12,7 @@
 #include "host_sim/scene_file/member.hpp"
 #include "host_sim/scene_file/uses.hpp"
 
-// What acts on the mass: plant, friction, sliding, transducer and drive.
+// What acts on the mass: plant, friction, sliding, load, transducer and drive.
 
 namespace sonoglide::scene_file {
 namespace {
@@ -125,6 +125,29 @@ std::vector<Key> sliding_keys() {
        "constant sliding velocity Vt", uses::always, "profile"},
       {"profile", points, Profile{time_range, speed_range}, Instead{"velocity_m_per_s"},
        "sliding velocity over time, linear between the pairs, constant before and after them"},
+  };
+}
+
+std::vector<Key> load_keys() {
+  using scene::Load;
+  const Load load;
+  constexpr Range applied_range{-largest_force_N, largest_force_N, "N"};
+  return {
+      {"mass_kg", of_load<&Load::mass_kg>, Number{{1e-12, 1e9, "kg"}}, Required{},
+       "mass of the body that slides"},
+      {"damping_N_s_per_m", of_load<&Load::damping_N_s_per_m>, Number{{0.0, 1e12, "N s/m"}},
+       load.damping_N_s_per_m, "viscous damping of its motion"},
+      {"initial_velocity_m_per_s", of_load<&Load::initial_velocity_m_per_s>, Number{speed_range},
+       load.initial_velocity_m_per_s, "its velocity at 0 s, where its displacement is 0"},
+      {"force_profile_N", of_load<&Load::force_profile_N>, Profile{time_range, applied_range},
+       Rule{"no force"},
+       "force on it over time, linear between the pairs; two pairs at the same time are a jump"},
+      {"spring_N_per_m", of_load<&Load::spring_N_per_m>, Number{stiffness_range},
+       load.spring_N_per_m, "stiffness of a spring at it, not stretched at 0 s"},
+      {"pull_profile_m_per_s", of_load<&Load::pull_profile_m_per_s>,
+       Profile{time_range, speed_range}, Rule{"it stands"},
+       "velocity of the far end of the spring over time, linear between the pairs",
+       uses::a_load_spring},
   };
 }
 

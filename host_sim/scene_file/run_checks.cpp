@@ -47,6 +47,14 @@ void require_solvable(const TableCursor& cursor, const scene::Scene& scene) {
                           scene::name_of(method), scene::name_of(scene.friction.law), allowed));
 }
 
+void require_load_solved(const TableCursor& cursor, const scene::Scene& scene) {
+  const scene::SolverMethod method = scene.solver.method;
+  if (scene.load && !scene::moves_load(method)) {
+    cursor.fail("method", fmt::format("\"{}\" does not solve a [load]; allowed: {}",
+                                      scene::name_of(method), methods_that(scene::moves_load)));
+  }
+}
+
 void require_built(const TableCursor& cursor, const scene::Solver& solver) {
   const std::vector<int> orders = scene::built_orders(solver.method);
   if (solver.order && std::find(orders.begin(), orders.end(), *solver.order) == orders.end()) {
@@ -131,6 +139,9 @@ void require_steady_conditions(const TableCursor& cursor, const scene::Scene& so
   if (!so_far.drive) {
     cursor.fail("start", "there is no period without a [drive] table; allowed: \"given\"");
   }
+  if (so_far.load) {
+    cursor.fail("start", "nothing is steady under a [load]; allowed: \"given\"");
+  }
   if (so_far.sliding.profile.size() != 1) {
     cursor.fail("start", "nothing is steady under a sliding.profile; allowed: \"given\"");
   }
@@ -155,7 +166,12 @@ void check_window(const TableCursor& cursor, std::string_view key, const scene::
   }
 }
 
-void check_record(const TableCursor& cursor, const scene::Run& run) {
+void check_record(const TableCursor& cursor, const scene::Scene& so_far) {
+  const scene::Run& run = so_far.run;
+  if (!so_far.load && std::find(run.record.begin(), run.record.end(),
+                                scene::Channel::load_displacement) != run.record.end()) {
+    cursor.fail("record", "\"load_displacement_m\" is not there without a [load]; remove it");
+  }
   if (run.record.empty()) {
     if (!cursor.has("record") && cursor.has("record_interval_s")) {
       cursor.fail("record_interval_s", "not used without run.record; remove it");
@@ -180,6 +196,7 @@ void check_record(const TableCursor& cursor, const scene::Run& run) {
 void check_solver(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
   require_built(cursor, scene.solver);
   require_solvable(cursor, scene);
+  require_load_solved(cursor, scene);
   settle_waveform(cursor, scene);
 }
 
@@ -199,6 +216,6 @@ void check_run(const TableCursor& cursor, const Variant& /*variant*/, scene::Sce
   } else if (run.start == scene::Start::steady) {
     require_steady_conditions(cursor, scene);
   }
-  check_record(cursor, run);
+  check_record(cursor, scene);
 }
 }  // namespace sonoglide::scene_file

@@ -24,6 +24,9 @@ inline bool is_open(const Scene& scene) {
 inline bool has_drive(const Scene& scene) {
   return scene.drive.has_value();
 }
+inline bool has_load(const Scene& scene) {
+  return scene.load.has_value();
+}
 inline bool has_transducer(const Scene& scene) {
   return scene.transducer.has_value();
 }
@@ -62,6 +65,13 @@ inline const Uses a_drive = {{"[drive]", has_drive, "without a table [drive]"}};
 inline const Uses a_period = {{"[drive]", has_drive,
                                "there is no period without a [drive] table; allowed: the time in s",
                                nullptr, "", true}};
+/// Of a table.
+inline const Uses no_load = {{"without [load]", [](const Scene& scene) { return !has_load(scene); },
+                              "with a [load], whose velocity follows from what acts on it"}};
+inline const Uses a_load_spring = {
+    {"load.spring_N_per_m above 0",
+     [](const Scene& scene) { return has_load(scene) && scene.load->spring_N_per_m > 0.0; },
+     "without a load.spring_N_per_m above 0"}};
 inline const Uses a_transducer = {{"with [transducer]", has_transducer, "without a [transducer]"}};
 /// Of an amplitude: a force without a transducer, a voltage with one.
 inline const Uses in_newtons = {

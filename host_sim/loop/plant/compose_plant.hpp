@@ -53,9 +53,14 @@ std::unique_ptr<PlantPort> make_composed_plant(const PlantDescription& descripti
                                                const typename Solver::Model& model) {
   const scene::Scene& scene = description.scene;
   const scene::PlantScales& scales = description.scales;
-  return std::make_unique<ComposedPlant<Solver>>(
-      scales, model, configured_solver<Described, Solver>(description, model),
-      configure::initial_state(scene, scales));
+  const auto solver = configured_solver<Described, Solver>(description, model);
+  if constexpr (Solver::Model::Sliding::moves) {
+    return std::make_unique<ComposedPlant<Solver>>(scales, model, solver,
+                                                   configure::initial_loaded_state(scene, scales));
+  } else {
+    return std::make_unique<ComposedPlant<Solver>>(scales, model, solver,
+                                                   configure::initial_state(scene, scales));
+  }
 }
 
 /// Whether a solver has the compositions of lean_plant; the others always take the general ones.
@@ -81,11 +86,21 @@ constexpr const auto& orders() {
   }
 }
 
+/// The solver of an order for a model.
+template <class Described, class Model, int Order>
+auto solver_for() {
+  if constexpr (Model::Sliding::moves) {
+    return typename Described::template LoadedCore<Model, Order>();
+  } else {
+    return typename Described::template Core<Model, Order>();
+  }
+}
+
 template <class Described, class Model, std::size_t... Index>
 constexpr std::array<PlantMaker<Model>, sizeof...(Index)> makers(
     std::index_sequence<Index...> /*all*/) {
   return {make_composed_plant<
-      Described, typename Described::template Core<Model, orders<Described, Model>()[Index]>>...};
+      Described, decltype(solver_for<Described, Model, orders<Described, Model>()[Index]>())>...};
 }
 
 template <class Model>
@@ -95,7 +110,8 @@ inline constexpr bool is_lean = std::is_same_v<typename Model::Sliding, plant::C
 template <class Described, class Model>
 PlantMaker<Model> maker(int order) {
   if constexpr (scene::takes_law<Described, typename Model::FrictionLaw> &&
-                (Described::composed_lean || !is_lean<Model>)) {
+                (Described::composed_lean || !is_lean<Model>)&&(scene::solves_load<Described> ||
+                                                                !Model::Sliding::moves)) {
     constexpr auto& built = orders<Described, Model>();
     constexpr auto makers_of =
         makers<Described, Model>(std::make_index_sequence<orders<Described, Model>().size()>{});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "firmware/friction/vibration.hpp"
@@ -17,6 +18,7 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/plant/contact_load.hpp"
 #include "host_sim/loop/plant/contact_memory.hpp"
+#include "host_sim/loop/plant/load_motion.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
@@ -27,10 +29,10 @@ class StepReader {
  public:
   StepReader() = default;
 
-  /// States.
+  /// States, of which those of a load fill both its parts.
   /// @param offsets_s  since the beginning, rising; outlives the reader, and so does `seen`
   void read_states(const std::vector<double>& offsets_s, double angular_frequency_rad_per_s,
-                   std::vector<plant::State<double>>& seen) {
+                   std::vector<plant::LoadedState<double>>& seen) {
     next_ = offsets_s.data();
     end_ = next_ + offsets_s.size();
     angular_frequency_rad_per_s_ = angular_frequency_rad_per_s;
@@ -50,6 +52,12 @@ class StepReader {
   /// @param load  outlives the reader
   void weigh(ContactLoad& load) {
     load_ = &load;
+    reads_ = true;
+  }
+
+  /// @param motion  outlives the reader
+  void follow(LoadMotion& motion) {
+    motion_ = &motion;
     reads_ = true;
   }
 
@@ -78,6 +86,17 @@ class StepReader {
 
  private:
   template <class Step>
+  static constexpr bool has_load =
+      std::is_same_v<decltype(std::declval<Step>().at(0.0)), plant::LoadedState<double>>;
+
+  static plant::LoadedState<double> with_load(const plant::State<double>& state) {
+    return {state, 0.0, 0.0};
+  }
+  static plant::LoadedState<double> with_load(const plant::LoadedState<double>& state) {
+    return state;
+  }
+
+  template <class Step>
   void read(const Step& step) {
     if (demodulator_ != nullptr) {
       (*demodulator_)(step);
@@ -87,6 +106,9 @@ class StepReader {
     }
     if (load_ != nullptr) {
       (*load_)(step);
+    }
+    if constexpr (has_load<Step>) {
+      (*motion_)(step);
     }
     if (moment_ != nullptr) {
       const double travel = step.at(step.length()).displacement - step.at(0.0).displacement;
@@ -98,7 +120,7 @@ class StepReader {
       if (offset > end) {
         return;
       }
-      seen_->push_back(step.at(std::max(0.0, offset - step.begin())));
+      seen_->push_back(with_load(step.at(std::max(0.0, offset - step.begin()))));
     }
   }
 
@@ -108,23 +130,25 @@ class StepReader {
   plant::Demodulator<double>* demodulator_ = nullptr;
   plant::MomentDemodulator<double>* phase_moment_ = nullptr;
   ContactLoad* load_ = nullptr;
+  LoadMotion* motion_ = nullptr;
   double* moment_ = nullptr;
   const double* next_ = nullptr;
   const double* end_ = nullptr;
   double angular_frequency_rad_per_s_ = 0.0;
-  std::vector<plant::State<double>>* seen_ = nullptr;
+  std::vector<plant::LoadedState<double>>* seen_ = nullptr;
 };
 
 /// The account of a stretch. Energies that nobody asks for cost a quarter of the time of a plant.
-struct StretchAccount : plant::EnergyAccount<double> {
+template <class Energies>
+struct StretchAccount : Energies {
   bool energies = true;
 
   template <class Step>
   void add(const Step& step) {
     if (energies) {
-      plant::EnergyAccount<double>::add(step);
+      Energies::add(step);
     } else {
-      friction_integral += step.friction_integral();
+      this->friction_integral += step.friction_integral();
     }
   }
 };
@@ -138,9 +162,9 @@ class ComposedPlant final : public PlantPort {
 
   /// @param solver  configured for the model
   ComposedPlant(const scene::PlantScales& scales, const Model& model, const Solver& solver,
-                const plant::State<double>& initial)
+                const typename Model::Motion& initial)
       : scales_(scales), model_(model), solver_(solver) {
-    static_cast<plant::State<double>&>(state_) = initial;
+    static_cast<typename Model::Motion&>(state_) = initial;
     if constexpr (Model::FrictionLaw::remembers) {
       state_.memory = model.law.memory_at(initial.friction);
     }
@@ -160,8 +184,8 @@ class ComposedPlant final : public PlantPort {
     reader.read_states(offsets_s, scales_.angular_frequency_rad_per_s, seen_);
     const plant::Outcome<double> outcome = advance(stretch, reader, energy);
     // Offsets that rounding has put past the last step.
-    seen_.resize(offsets_s.size(), state_);
-    for (const plant::State<double>& state : seen_) {
+    seen_.resize(offsets_s.size(), with_load(state_));
+    for (const plant::LoadedState<double>& state : seen_) {
       seen.push_back(in_si_units(state));
     }
     return outcome;
@@ -171,6 +195,10 @@ class ComposedPlant final : public PlantPort {
     state_.displacement = state.displacement_m / scales_.length_m;
     state_.velocity = state.velocity_m_per_s / scales_.velocity_m_per_s();
     state_.friction = scales_.friction_N > 0.0 ? state.friction_force_N / scales_.friction_N : 0.0;
+    if constexpr (moves) {
+      state_.sliding_velocity = state.load_velocity_m_per_s / scales_.velocity_m_per_s();
+      state_.extension = state.load_extension_m / scales_.length_m;
+    }
     remember(model_.law, memory, state_);
   }
   std::vector<double> memory() const override { return remembered(model_.law, state_); }
@@ -182,7 +210,7 @@ class ComposedPlant final : public PlantPort {
     return limits;
   }
 
-  PlantState state() const override { return in_si_units(state_); }
+  PlantState state() const override { return in_si_units(with_load(state_)); }
   plant::Cost cost() const override { return solver_.cost(); }
 
   void save(SnapshotWriter& state) const override {
@@ -195,6 +223,10 @@ class ComposedPlant final : public PlantPort {
   }
 
  private:
+  static constexpr bool moves = Model::Sliding::moves;
+  using Account = StretchAccount<
+      std::conditional_t<moves, plant::LoadedEnergyAccount<double>, plant::EnergyAccount<double>>>;
+
   static constexpr bool is_normal = Model::FrictionLaw::vibration == friction::Vibration::normal;
 
   static constexpr bool is_ramped = std::is_same_v<typename Model::Drive, plant::RampedCosineDrive>;
@@ -222,13 +254,14 @@ class ComposedPlant final : public PlantPort {
                                  EnergyBalance& energy) {
     const double omega = scales_.angular_frequency_rad_per_s;
     const DrivePiece drive = drive_piece(stretch);
-    const plant::IntervalOf<Model> interval{
-        drive.phase_rad, stretch.duration_s * omega, amplitude(stretch, drive.amplitude_N),
-        stretch.sliding_velocity_m_per_s / scales_.velocity_m_per_s(),
-        stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega)};
-    const plant::State<double> before = state_;
-    StretchAccount account;
-    account.energies = stretch.energies;
+    const plant::IntervalOf<Model> interval = interval_of(stretch, drive);
+    const typename Model::Motion before = state_;
+    Account account;
+    account.energies = stretch.energies || moves;
+    LoadMotion motion(scales_.velocity_m_per_s(), stretch.undriven);
+    if constexpr (moves) {
+      reader.follow(motion);
+    }
     plant::Demodulator<double> demodulator(stretch.drive_phase_rad);
     if (stretch.demodulated) {
       reader.demodulate(demodulator);
@@ -240,7 +273,7 @@ class ComposedPlant final : public PlantPort {
       }
     }
     double moment = 0.0;
-    if (stretch.energies && stretch.sliding_acceleration_m_per_s2 != 0.0) {
+    if (!moves && stretch.energies && stretch.sliding_acceleration_m_per_s2 != 0.0) {
       reader.take_moment(moment);
     }
     ContactLoad load(normal_stiffness());
@@ -252,6 +285,9 @@ class ComposedPlant final : public PlantPort {
     }
     plant::Outcome<double> outcome = solver_.advance(interval, state_, account, reader);
     energy = balance(stretch, account, before);
+    if constexpr (moves) {
+      add_load(account, motion, before, energy);
+    }
     energy.load_s = load.load() / omega;
     energy.open_s = load.open() / omega;
     energy.momentum_integral_J_s +=
@@ -266,9 +302,55 @@ class ComposedPlant final : public PlantPort {
     return outcome;
   }
 
-  PlantState in_si_units(const plant::State<double>& state) const {
+  plant::IntervalOf<Model> interval_of(const Stretch& stretch, const DrivePiece& drive) const {
+    const double omega = scales_.angular_frequency_rad_per_s;
+    plant::IntervalOf<Model> interval{};
+    interval.phase_begin = drive.phase_rad;
+    interval.duration = stretch.duration_s * omega;
+    interval.drive_amplitude = amplitude(stretch, drive.amplitude_N);
+    interval.sliding_velocity = stretch.sliding_velocity_m_per_s / scales_.velocity_m_per_s();
+    interval.sliding_acceleration =
+        stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega);
+    if constexpr (moves) {
+      const double unit_N = scales_.force_N / model_.mass_ratio;
+      interval.load_force = stretch.load_force_N / unit_N;
+      interval.load_force_rate = stretch.load_force_slope_N_per_s / (unit_N * omega);
+    }
+    return interval;
+  }
+
+  static plant::LoadedState<double> with_load(const typename Model::Motion& state) {
+    if constexpr (moves) {
+      return state;
+    } else {
+      return {state, 0.0, 0.0};
+    }
+  }
+
+  PlantState in_si_units(const plant::LoadedState<double>& state) const {
     return {state.displacement * scales_.length_m, state.velocity * scales_.velocity_m_per_s(),
-            state.friction * scales_.friction_N};
+            state.friction * scales_.friction_N,
+            state.sliding_velocity * scales_.velocity_m_per_s(),
+            state.extension * scales_.length_m};
+  }
+
+  /// What an account without a load takes from the sliding velocity that is given. A friction ratio is
+  /// not defined in a stretch in which the body turns or stands, or the contact does not slide.
+  void add_load(const Account& account, const LoadMotion& motion,
+                const typename Model::Motion& before, EnergyBalance& energy) const {
+    const double omega = scales_.angular_frequency_rad_per_s;
+    const double energy_J = scales_.force_N * scales_.length_m;
+    const double load_J = energy_J / model_.mass_ratio;
+    const bool slides = motion.direction() != 0.0 && account.friction_work != 0.0;
+    energy.sliding_distance_m = motion.distance() * scales_.length_m;
+    energy.resistance_impulse_N_s = slides ? motion.direction() * energy.friction_impulse_N_s : 0.0;
+    energy.undriven_s = slides ? motion.undriven() / omega : 0.0;
+    energy.momentum_integral_J_s = 0.0;
+    energy.load.force_work_J = account.load.force_work * load_J;
+    energy.load.spring_pull_work_J = account.load.pull_work * load_J;
+    energy.load.damping_work_J = model_.load_damping * account.load.velocity_square * load_J;
+    energy.load.stored_begin_J = model_.load_energy(before) * energy_J;
+    energy.load.stored_end_J = model_.load_energy(state_) * energy_J;
   }
 
   EnergyBalance balance(const Stretch& stretch, const plant::EnergyAccount<double>& account,
@@ -312,8 +394,8 @@ class ComposedPlant final : public PlantPort {
   scene::PlantScales scales_;
   Model model_;
   Solver solver_;
-  plant::StateOf<typename Model::FrictionLaw> state_;
-  std::vector<plant::State<double>> seen_;
+  typename Model::PlantState state_;
+  std::vector<plant::LoadedState<double>> seen_;
 };
 
 }  // namespace sonoglide::loop

@@ -56,8 +56,9 @@ void set_parts(std::array<double, Count>& memory, const std::array<double, Count
 }  // namespace detail
 
 /// Parts of the most that each number can be: see PlantPort::memory.
-template <class Law>
-std::vector<double> remembered(const Law& law, const plant::StateOf<Law>& state) {
+/// @tparam State  of a plant with this law, with a load or without
+template <class Law, class State>
+std::vector<double> remembered(const Law& law, const State& state) {
   if constexpr (Law::remembers) {
     return detail::parts(state.memory, law.largest_memory());
   } else if constexpr (remembers_force<Law>) {
@@ -70,8 +71,8 @@ std::vector<double> remembered(const Law& law, const plant::StateOf<Law>& state)
 }
 
 /// The most that each of them stands for, in units of the friction limit.
-template <class Law>
-std::vector<double> memory_limits(const Law& law, const plant::StateOf<Law>& state) {
+template <class Law, class State>
+std::vector<double> memory_limits(const Law& law, const State& state) {
   if constexpr (Law::remembers) {
     return detail::limits(law.largest_memory());
   } else if constexpr (remembers_force<Law>) {
@@ -82,8 +83,8 @@ std::vector<double> memory_limits(const Law& law, const plant::StateOf<Law>& sta
   return {};
 }
 
-template <class Law>
-void remember(const Law& law, const std::vector<double>& parts, plant::StateOf<Law>& state) {
+template <class Law, class State>
+void remember(const Law& law, const std::vector<double>& parts, State& state) {
   if constexpr (Law::remembers) {
     detail::set_parts(state.memory, law.largest_memory(), parts);
   } else if constexpr (remembers_force<Law>) {

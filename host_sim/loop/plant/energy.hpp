@@ -7,11 +7,26 @@
 
 namespace sonoglide::loop {
 
+/// Of a load, likewise; all 0 without one.
+///
+/// Identity: pull_work = force_work + spring_pull_work − damping_work − (stored_end − stored_begin),
+/// pull_work that of the EnergyBalance: what the body gives to the contact.
+struct LoadBalance {
+  double force_work_J = 0.0;        ///< ∫Fa Vt dt
+  double spring_pull_work_J = 0.0;  ///< −∫k (x − ∫vp dt) vp dt, from the pulled end of the spring
+  double damping_work_J = 0.0;  ///< ∫c Vt² dt
+  double stored_begin_J = 0.0;  ///< M Vt²/2 + k (x − ∫vp dt)²/2
+  double stored_end_J = 0.0;
+
+  double change_J() const { return stored_end_J - stored_begin_J; }
+};
+
 /// Integrals over a stretch of motion; stretches add up.
 ///
 /// Identity, σ = +1 dissipative, −1 as printed:
 ///   friction_work = pull_work
 ///                   + σ (drive_work + spring_work − damping_work − (stored_end − stored_begin)).
+/// A load does the work of the pull and has an identity of its own.
 struct EnergyBalance {
   double duration_s = 0.0;
   double sliding_distance_m = 0.0;      ///< ∫|Vt| dt
@@ -40,6 +55,7 @@ struct EnergyBalance {
   double load_s = 0.0;  ///< ∫N/N0 dt where the contact vibrates normally, N0 the force at x = 0
   double normal_impulse_N_s = 0.0;  ///< ∫N dt likewise, N0 that of the middle of a stretch
   double open_s = 0.0;              ///< time in which such a contact is open, N = 0
+  LoadBalance load;
 
   /// z [m/s] of the fundamental Re(z e^jθ) of x' over whole carrier periods.
   std::complex<double> vibration_m_per_s() const;
@@ -60,8 +76,14 @@ struct PowerRatios {
   double drive_input_ratio;       ///< φ_iu
   double stored_change_ratio;     ///< change of the oscillator's energy
   double damping_ratio;           ///< taken by the damper
-  double balance_residual;        ///< of the identity, relative to its largest term
-  double dissipation_as_printed;  ///< 1 + φ_iu − φ_su, φ_su from the average stored energy
+  double balance_residual;        ///< of the identity, relative to its largest term; with a load
+                                  ///< of both identities together
+  double dissipation_as_printed;  ///< 1 + φ_iu − φ_su, φ_su from the average stored energy; NaN
+                                  ///< with a load
+  double load_force_ratio = 0.0;          ///< of a load: put in by the applied force
+  double load_spring_pull_ratio = 0.0;    ///< by the pulled end of its spring
+  double load_damping_ratio = 0.0;        ///< taken by its damper
+  double load_stored_change_ratio = 0.0;  ///< change of its energy
 };
 
 /// @param friction_N  the scene's largest friction limit

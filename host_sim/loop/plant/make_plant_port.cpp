@@ -29,8 +29,11 @@ std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
   }
   const scene::Scene acting = with_acting_solver(scene);
   const PlantDescription description(acting);
-  return std::visit([&](const auto& law) { return make_law_plant(description, law); },
-                    configure::acting_law(scene.friction));
+  return std::visit(
+      [&](const auto& law) {
+        return scene.load ? make_loaded_plant(description, law) : make_law_plant(description, law);
+      },
+      configure::acting_law(scene.friction));
 }
 
 }  // namespace sonoglide::loop

@@ -11,6 +11,8 @@
 
 namespace sonoglide::loop {
 
+class UndrivenFriction;
+
 /// A stretch of time in which amplitude and sliding velocity are linear, and the latter keeps its
 /// sign. The drive is (drive_amplitude_N + drive_slope_N_per_rad θ) cos θ + drive_bias_N, θ its phase.
 struct Stretch {
@@ -28,6 +30,10 @@ struct Stretch {
   bool demodulated = false;    ///< the account is to have velocity_in_phase_m and its quadrature
   bool energies = true;        ///< false: what depends on them is left open
   StepMeter* meter = nullptr;  ///< counts the steps
+  /// With a load; the sliding velocity and its acceleration are then those of the pulled end of its spring.
+  double load_force_N = 0.0;  ///< at the beginning
+  double load_force_slope_N_per_s = 0.0;
+  const UndrivenFriction* undriven = nullptr;  ///< null: Fc, at any speed
 };
 
 /// As plant::CosineDrive, RampDrive or LevelDrive, whichever is the waveform's, takes it; of a
@@ -46,6 +52,8 @@ struct PlantState {
   double displacement_m;
   double velocity_m_per_s;
   double friction_force_N;
+  double load_velocity_m_per_s = 0.0;  ///< 0 without a load, as the next
+  double load_extension_m = 0.0;       ///< of its spring
 };
 
 class PlantPort {

@@ -10,6 +10,15 @@ namespace sonoglide::loop {
 class SlidingProfile {
  public:
   explicit SlidingProfile(const scene::Sliding& sliding) : points_(sliding.profile) {}
+  /// What a stretch says of the sliding: with a load, the velocity of the pulled end of its spring.
+  static SlidingProfile of(const scene::Scene& scene) {
+    if (!scene.load) {
+      return SlidingProfile(scene.sliding);
+    }
+    const auto& pull = scene.load->pull_profile_m_per_s;
+    return SlidingProfile(
+        scene::Sliding{pull.empty() ? std::vector<scene::SpeedPoint>{{0.0, 0.0}} : pull});
+  }
 
   double velocity_m_per_s(double time_s) const;
 

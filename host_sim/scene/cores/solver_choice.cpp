@@ -16,7 +16,7 @@ constexpr SolverMethod event_gauss = method_of<solvers::EventGauss>;
 
 /// One table of the motion serves the run.
 bool keeps_its_table(const Scene& scene) {
-  return scene.drive && scene.drive->waveform == Waveform::cosine &&
+  return scene.drive && !scene.load && scene.drive->waveform == Waveform::cosine &&
          scene.drive->codes_per_period == 1 && !scene.carrier_changes() &&
          scene.profile_key() == nullptr && solves(event_gauss, scene.friction.law);
 }

@@ -23,6 +23,7 @@ namespace sonoglide::scene::solvers {
 ///   composed_lean      true if common scenes have compositions of their own, without damping or
 ///                      sliding acceleration where a scene has none; false: one for all scenes
 ///   counts_events      true if it notices reversals, sticks and releases
+///   LoadedCore<Model, Order>  only if it solves a [load]: the solver of the core for a plant::LoadedModel
 ///   Core<Model, Order> the solver of the core, declared only; which laws it takes that says itself
 struct EventTaylor {
   static constexpr std::string_view name = "event_taylor";
@@ -39,6 +40,8 @@ struct EventTaylor {
   static constexpr bool counts_events = true;
   template <class Model, int Order>
   using Core = StiffCore<Model, plant::EventTaylor<Model, static_cast<std::size_t>(Order)>, 1>;
+  template <class Model, int Order>
+  using LoadedCore = plant::EventTaylor<Model, static_cast<std::size_t>(Order)>;
 };
 
 }  // namespace sonoglide::scene::solvers

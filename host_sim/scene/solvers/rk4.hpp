@@ -23,6 +23,8 @@ struct Rk4 {
   static constexpr bool counts_events = false;
   template <class Model, int /*Order*/>
   using Core = plant::Rk4<Model>;
+  template <class Model, int /*Order*/>
+  using LoadedCore = plant::Rk4<Model>;
 };
 
 }  // namespace sonoglide::scene::solvers

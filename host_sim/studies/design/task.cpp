@@ -20,6 +20,11 @@ void require_steady_vibration(const scene::Scene& scene) {
         "loop; required: a table [controller], and drive.max_force_amplitude_N or, with a "
         "[transducer], drive.max_voltage_amplitude_V");
   }
+  if (scene.load) {
+    throw configure::ConfigurationError(
+        "load", "a design is for a sliding velocity that is given; required: a table [sliding] in "
+                "its place");
+  }
   if (const char* key = scene.profile_key()) {
     throw configure::ConfigurationError(key,
                                         "a design is for a plant that does not change; allowed: a "

@@ -16,6 +16,11 @@ constexpr std::size_t speed_count = 49;
 constexpr std::size_t force_count = 65;
 
 void require_steady_sliding(const scene::Scene& scene) {
+  if (scene.load) {
+    throw ConfigurationError(
+        "load",
+        "steady sliding has a velocity that is given; required: a table [sliding] in its place");
+  }
   if (const char* key = scene.profile_key()) {
     throw ConfigurationError(key, "steady sliding does not change; allowed: a constant value");
   }

@@ -34,6 +34,10 @@ void require_comparable(const scene::Scene& scene) {
         "friction.law", fmt::format("\"{}\" is not solved by every method here; allowed: \"dahl\"",
                                     scene::name_of(scene.friction.law)));
   }
+  if (scene.load) {
+    throw ConfigurationError("load", "solvers are compared at a sliding velocity that is given; "
+                                     "required: a table [sliding] in its place");
+  }
   if (const char* key = scene.profile_key()) {
     throw ConfigurationError(
         key,

@@ -115,7 +115,7 @@ const std::vector<BrokenScene> broken_scenes = {
     {"unknown_table_near", open_loop, "[friction]", "[fricton]",
      "4:2: fricton: unknown table; did you mean friction?"},
     {"unknown_table_far", open_loop, "[friction]", "[weather]",
-     "4:2: weather: unknown table; allowed: plant, friction, sliding, transducer, drive, solver, "
+     "4:2: weather: unknown table; allowed: plant, friction, sliding, load, transducer, drive, solver, "
      "run, "
      "controller, sensor, model_error, tolerance, true_values"},
     {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
@@ -151,7 +151,8 @@ const std::vector<BrokenScene> broken_scenes = {
      "1:3: plant: is an array; allowed: one table, [plant]"},
     {"word_for_list", open_loop, "[\"displacement_m\"]", "\"displacement_m\"",
      "19:10: run.record: is a string; allowed: a list of \"displacement_m\", \"velocity_m_per_s\", "
-     "\"friction_force_N\", \"drive_force_N\", \"sliding_velocity_m_per_s\""},
+     "\"friction_force_N\", \"drive_force_N\", \"sliding_velocity_m_per_s\", "
+     "\"load_displacement_m\""},
     {"number_for_targets", closed_loop, "[[0.0, 0.4], [0.5e-3, 0.6]]", "0.4",
      "17:25: controller.target_friction_ratio: is a real number; allowed: a list of pairs "
      "[[time in s, number], …]"},
@@ -475,9 +476,41 @@ const std::vector<BrokenScene> broken_scenes = {
     {"unknown_channel", open_loop, "[\"displacement_m\"]", "[\"displacment_m\"]",
      "19:11: run.record[0]: \"displacment_m\" is unknown; did you mean \"displacement_m\"? "
      "allowed: \"displacement_m\", \"velocity_m_per_s\", \"friction_force_N\", "
-     "\"drive_force_N\", \"sliding_velocity_m_per_s\""},
+     "\"drive_force_N\", \"sliding_velocity_m_per_s\", "
+     "\"load_displacement_m\""},
     {"channel_twice", open_loop, "[\"displacement_m\"]", "[\"displacement_m\", \"displacement_m\"]",
      "19:29: run.record[1]: \"displacement_m\" is there twice; allowed: each once"},
+    // A load
+    {"load_beside_sliding", open_loop, "[drive]", "[load]\nmass_kg = 1\n[drive]",
+     "9:2: sliding: not used with a [load], whose velocity follows from what acts on it; remove it"},
+    {"load_without_mass", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267", "[load]",
+     "9:2: load.mass_kg: missing; required: a number, 1e-12 to 1e+09 kg"},
+    {"load_of_another_solver", open_loop,
+     "[sliding]\nvelocity_m_per_s = 0.0267\n[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = "
+     "384.0\n[solver]\nmethod = \"event_taylor\"",
+     "[load]\nmass_kg = 1\n[drive]\nfrequency_Hz = 60e3\nforce_amplitude_N = 384.0\n[solver]\n"
+     "method = \"strang\"",
+     "15:10: solver.method: \"strang\" does not solve a [load]; allowed: \"event_taylor\", \"rk4\""},
+    {"load_that_is_pulled_by_nothing", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267",
+     "[load]\nmass_kg = 1\npull_profile_m_per_s = [[0, 1]]",
+     "11:1: load.pull_profile_m_per_s: not used without a load.spring_N_per_m above 0; remove it"},
+    {"load_under_friction_that_changes", moving_open_loop, "[sliding]\nvelocity_m_per_s = 0.0267",
+     "[load]\nmass_kg = 1",
+     "8:2: load: not used with friction.normal_force_profile_N; allowed: a constant value in its "
+     "place"},
+    {"load_across_the_vibration", open_loop,
+     "\"dahl\"\ncoefficient = 0.1\nnormal_force_N = 0.1962\ncontact_stiffness_N_per_m = "
+     "0.056e6\n[sliding]\nvelocity_m_per_s = 0.0267",
+     "\"transverse_coulomb\"\ncoefficient = 0.1\n[load]\nmass_kg = 1",
+     "7:2: load: not used with friction.law = \"transverse_coulomb\": a body at rest in such a "
+     "contact is not modelled; allowed: a law of friction along the vibration"},
+    {"load_as_printed", open_loop, "0.056e6\n[sliding]\nvelocity_m_per_s = 0.0267",
+     "0.056e6\nsign_convention = \"as_printed\"\n[load]\nmass_kg = 1",
+     "10:2: load: not used with friction.sign_convention = \"as_printed\", under which the friction "
+     "on the body has no reaction; allowed: \"dissipative\""},
+    {"load_displacement_without_load", open_loop, "[\"displacement_m\"]",
+     "[\"load_displacement_m\"]",
+     "19:10: run.record: \"load_displacement_m\" is not there without a [load]; remove it"},
     // Missing
     {"missing_key", open_loop, "mass_kg = 0.02\n", "",
      "1:2: plant.mass_kg: missing; required: a number, 1e-12 to 1e+06 kg"},
@@ -485,7 +518,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "4:2: friction.law: missing; required: \"dahl\" or \"lugre\" or \"iwan\" or \"coulomb\" or "
      "\"stribeck\" or \"transverse_coulomb\" or \"normal_coulomb\" or \"none\""},
     {"missing_table", open_loop, "[sliding]\nvelocity_m_per_s = 0.0267\n", "",
-     "1:1: sliding: missing; required: a table [sliding]"},
+     "1:1: sliding: missing; required: a table [sliding], or [load]"},
     {"missing_velocity", open_loop, "velocity_m_per_s = 0.0267\n", "",
      "9:2: sliding.velocity_m_per_s: missing; required: velocity_m_per_s or profile"},
     {"missing_duration", open_loop, "duration_periods = 20\n", "",

@@ -84,7 +84,8 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:2:1: friction.coefficient: -1 is out of range; allowed: 0 to 100"},
     {"element_of_the_value", "--set 'run.record=[\"velocity_m_per_s\", 3]'",
      "--set:1:1: run.record[1]: is an integer; allowed: \"displacement_m\", \"velocity_m_per_s\", "
-     "\"friction_force_N\", \"drive_force_N\", \"sliding_velocity_m_per_s\""},
+     "\"friction_force_N\", \"drive_force_N\", \"sliding_velocity_m_per_s\", "
+     "\"load_displacement_m\""},
     {"unused_key", "--set solver.step_s=1e-8",
      "--set:1:1: solver.step_s: not used with solver.method = \"event_taylor\"; remove it"},
     {"unused_table", "--set sensor.adc_bits=12",

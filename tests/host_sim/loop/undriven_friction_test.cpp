@@ -1,4 +1,4 @@
-#include "host_sim/loop/undriven_friction.hpp"
+#include "host_sim/loop/plant/undriven_friction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -315,6 +315,21 @@ TEST(ReaderTest, ASteadyOrbitHasAPeriodAndNoOtherBeginning) {
   EXPECT_EQ(refused_key({hertz, newton, "friction.initial_force_N=0"}), "friction.initial_force_N");
 }
 
+TEST(ReaderTest, ALoadTakesThePlaceOfTheSliding) {
+  const scene::Scene scene = read_text(load_open_loop, "s");
+  ASSERT_TRUE(scene.load.has_value());
+  EXPECT_EQ(scene.load->mass_kg, 0.5);
+  EXPECT_EQ(scene.load->damping_N_s_per_m, 0.2);
+  EXPECT_EQ(scene.load->initial_velocity_m_per_s, 0.01);
+  ASSERT_EQ(scene.load->force_profile_N.size(), 3U);
+  EXPECT_EQ(scene.load->force_profile_N[2].value, -0.1);
+  EXPECT_EQ(scene.load->spring_N_per_m, 2e3);
+  ASSERT_EQ(scene.load->pull_profile_m_per_s.size(), 2U);
+  // For a controller: 0.1 N over 0.2 N s/m is faster than the pull.
+  EXPECT_EQ(scene.sliding.fastest_m_per_s(), 0.5);
+  EXPECT_EQ(scene.solver.method, scene::method_of<scene::solvers::EventTaylor>);
+}
+
 TEST(ReaderTest, TheErrorCarriesItsParts) {
   try {
     read_text("[plant]\n  mass_kg = -1\n", "dir/bad.toml");

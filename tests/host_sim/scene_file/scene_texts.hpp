@@ -66,6 +66,30 @@ vibration_bits = 14
 damping = 0.9
 )";
 
+/// A body of its own mass that slides.
+inline constexpr const char* load_open_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[load]
+mass_kg = 0.5
+damping_N_s_per_m = 0.2
+initial_velocity_m_per_s = 0.01
+force_profile_N = [[0, 0.1], [1e-3, 0.1], [1e-3, -0.1]]
+spring_N_per_m = 2e3
+pull_profile_m_per_s = [[0, 0.02], [1e-3, 0.0]]
+[drive]
+frequency_Hz = 60e3
+force_amplitude_N = 384
+[run]
+duration_s = 2e-3
+record = ["sliding_velocity_m_per_s", "load_displacement_m"]
+record_interval_s = 1e-5
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_open_loop = R"([plant]
 mass_kg = 0.02

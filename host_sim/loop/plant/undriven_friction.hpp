@@ -16,7 +16,15 @@ class UndrivenFriction {
   /// Fills in undriven_s and limit_distance_m of the account of a stretch.
   /// Error: exact where F0 is a polynomial of the time; of a LuGre contact whose speed passes 10
   /// Stribeck velocities within the stretch 1e-9 of the largest.
+  /// With a load the plant has filled in undriven_s itself.
   void complete(const Stretch& stretch, EnergyBalance& energy) const;
+
+  /// F0 is Fc throughout.
+  bool is_limit() const { return is_limit_; }
+  /// F0/Fc at a sliding velocity, of a contact that does not change.
+  double part_at(double sliding_m_per_s) const {
+    return part_of_largest(friction_, sliding_m_per_s);
+  }
 
  private:
   double part_of_largest(const scene::ContactValues& contact, double sliding_m_per_s) const;
@@ -24,7 +32,8 @@ class UndrivenFriction {
 
   scene::Friction friction_;
   double largest_N_;
-  bool is_limit_;  ///< F0 is Fc throughout
+  bool is_limit_;
+  bool has_load_;
 };
 
 }  // namespace sonoglide::loop

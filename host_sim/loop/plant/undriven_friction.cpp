@@ -1,4 +1,4 @@
-#include "host_sim/loop/undriven_friction.hpp"
+#include "host_sim/loop/plant/undriven_friction.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -11,14 +11,18 @@ namespace sonoglide::loop {
 UndrivenFriction::UndrivenFriction(const scene::Scene& scene)
     : friction_(scene.friction),
       largest_N_(scene.friction.largest_limit_N()),
-      is_limit_(!scene.friction.has_profile() && scene::is_bounded(scene.friction.law)) {}
+      is_limit_(!scene.friction.has_profile() && scene::is_bounded(scene.friction.law)),
+      has_load_(scene.load) {}
 
 void UndrivenFriction::complete(const Stretch& stretch, EnergyBalance& energy) const {
   if (!(largest_N_ > 0.0)) {
     return;
   }
-  energy.undriven_s = energy.duration_s;
   energy.limit_distance_m = energy.sliding_distance_m;
+  if (has_load_) {
+    return;
+  }
+  energy.undriven_s = energy.duration_s;
   if (is_limit_) {
     return;
   }
