@@ -128,14 +128,14 @@ struct LoadedEnergyAccount : EnergyAccount<Scalar> {
   template <class Model>
   Scalar load_residual(const Model& model, const LoadedState<Scalar>& before,
                        const LoadedState<Scalar>& after) const {
-    const Scalar damping_work = model.load_damping * load.velocity_square;
+    const Scalar into_damper = model.load_damping * load.velocity_square;
     const Scalar stored[] = {model.load_energy(before), model.load_energy(after)};
     const Scalar friction = model.contact_force(this->sliding_work);
     Scalar largest = numeric::max(numeric::max(stored[0], stored[1]), numeric::abs(friction));
-    for (const Scalar work : {load.force_work, load.pull_work, damping_work}) {
+    for (const Scalar work : {load.force_work, load.pull_work, into_damper}) {
       largest = numeric::max(largest, numeric::abs(work) / model.mass_ratio);
     }
-    const Scalar given = (load.force_work + load.pull_work - damping_work) / model.mass_ratio;
+    const Scalar given = (load.force_work + load.pull_work - into_damper) / model.mass_ratio;
     return largest > Scalar(0) ? (stored[1] - stored[0] - given + friction) / largest : Scalar(0);
   }
 };
