@@ -273,9 +273,10 @@ std::string plant_header(const configure::Experiment& experiment, scene::Arithme
           "missing; required: a table [controller], of which an image is made");
   require(scene::is<scene::laws::Dahl>(scene.friction.law), "friction.law",
           "the plant of an image has Dahl friction; allowed: \"dahl\"");
-  require(!scene.load, "load",
-          "the plant of an image slides at a velocity that is given; required: a table [sliding] in "
-          "its place");
+  require(
+      !scene.load, "load",
+      "the plant of an image slides at a velocity that is given; required: a table [sliding] in "
+      "its place");
   const char* key = scene.profile_key();
   require(key == nullptr, key,
           "changes, but the plant of an image does not; allowed: a constant value in place of a "

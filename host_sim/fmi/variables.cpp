@@ -58,9 +58,8 @@ constexpr std::array series = {
                                             "Friction force at the end of the carrier period")};
 
 /// Of a scene with a load.
-constexpr std::array of_load = {
-    signal<&PlantOutputs::load_displacement_m>(
-        "load_displacement_m", "m", "Displacement of the load at the end of the carrier period")};
+constexpr std::array of_load = {signal<&PlantOutputs::load_displacement_m>(
+    "load_displacement_m", "m", "Displacement of the load at the end of the carrier period")};
 
 class List {
  public:

@@ -22,8 +22,9 @@ void require_steady_vibration(const scene::Scene& scene) {
   }
   if (scene.load) {
     throw configure::ConfigurationError(
-        "load", "a design is for a sliding velocity that is given; required: a table [sliding] in "
-                "its place");
+        "load",
+        "a design is for a sliding velocity that is given; required: a table [sliding] in "
+        "its place");
   }
   if (const char* key = scene.profile_key()) {
     throw configure::ConfigurationError(key,

@@ -35,8 +35,9 @@ void require_comparable(const scene::Scene& scene) {
                                     scene::name_of(scene.friction.law)));
   }
   if (scene.load) {
-    throw ConfigurationError("load", "solvers are compared at a sliding velocity that is given; "
-                                     "required: a table [sliding] in its place");
+    throw ConfigurationError("load",
+                             "solvers are compared at a sliding velocity that is given; "
+                             "required: a table [sliding] in its place");
   }
   if (const char* key = scene.profile_key()) {
     throw ConfigurationError(
