@@ -245,7 +245,7 @@ Peer peer_state(const Loaded<Law>& model, const Span& span, Peer x) {
   };
   namespace odeint = boost::numeric::odeint;
   odeint::integrate_adaptive(
-      odeint::make_controlled<odeint::runge_kutta_dopri5<Peer>>(1e-13, 1e-13), slope, x, 0.0,
+      odeint::make_controlled<odeint::runge_kutta_dopri5<Peer>>(1e-15, 1e-15), slope, x, 0.0,
       span.duration, 1e-4);
   return x;
 }
