@@ -67,13 +67,17 @@ void add_stability_command_for(CLI::App& program, const StabilityWork& work) {
                         "Whether steady sliding of the scene excites itself, and "
                         "the drives that quench it");
   scene->needs(self_excited);
-  self_excited->needs(scene);
   command->get_option("--set")->needs(scene);
   add_study_options(*command, options->study,
                     "report.html, stability_map.csv and .svg, the same for float32, extremes.csv "
                     "and extremes_worst.csv [out/stability]; of a scene report.html, "
                     "self_excited.csv, .json and .svg [out/<scene name>_self_excited]");
-  command->callback([options, work] { stability(*options, work); });
+  command->callback([options, work, self_excited] {
+    if (self_excited->count() > 0 && options->scene.path.empty()) {
+      throw CLI::RequiredError("scene");
+    }
+    stability(*options, work);
+  });
 }
 
 void add_stability_command(CLI::App& program) {
