@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
@@ -36,11 +38,17 @@ nlohmann::json without_host(nlohmann::json summary) {
   return summary;
 }
 
+bool has_controller(const std::filesystem::path& scene) {
+  std::ifstream file(scene);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return text.find("\n[controller]") != std::string::npos;
+}
+
 std::vector<std::string> closed_loop_scenes() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(SONOGLIDE_SCENES)) {
     const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".toml" && name.find("open_loop") == std::string::npos &&
+    if (entry.path().extension() == ".toml" && has_controller(entry.path()) &&
         name != "target_step_float64") {
       names.push_back(name);
     }

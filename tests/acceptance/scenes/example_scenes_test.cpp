@@ -34,8 +34,9 @@ TEST_P(ExampleSceneTest, RunsAndEchoesItself) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json summary = nlohmann::json::parse(folder.read("out/summary.json"));
   EXPECT_GT(summary.at("scene").at("plant").at("mass_kg"), 0.0);
-  const bool open_loop = GetParam().find("open_loop") != std::string::npos;
-  EXPECT_EQ(summary.at("scene").contains("controller"), !open_loop);
+  if (GetParam().find("open_loop") != std::string::npos) {
+    EXPECT_FALSE(summary.at("scene").contains("controller"));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Folder, ExampleSceneTest, testing::ValuesIn(scene_names()),
