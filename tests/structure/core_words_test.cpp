@@ -56,8 +56,8 @@ std::vector<std::string> words(const std::string& code) {
 
 /// Construction in place, `new (&object) Type`, takes nothing from a heap.
 std::string without_placement(const std::string& code) {
-  static const std::regex placement(R"(\bnew \(&)");
-  return std::regex_replace(code, placement, "(&");
+  static const std::regex placement(R"(\bnew \(&|<new>)");
+  return std::regex_replace(code, placement, "");
 }
 
 std::vector<std::string> forbidden_words(const std::string& code) {
