@@ -54,6 +54,7 @@ class Board {
   static constexpr std::uint32_t period_ticks(double period_s) {
     constexpr std::uint32_t step = system_hz / (converter_hz / (2 * pairs_in_period));
     constexpr double crystal_tolerance = 30e-6;
+    // Not negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const auto steps = static_cast<std::uint32_t>(period_s * system_hz / step + 0.5);
     const double error = period_s * system_hz / (steps * step) - 1.0;
     const bool exact = -crystal_tolerance < error && error < crystal_tolerance;

@@ -112,6 +112,7 @@ Board::Board(std::uint32_t period_ticks) : half_period_(period_ticks / 2) {
 }
 
 void Board::interrupt() {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the processor tells an address
   const auto* const old = reinterpret_cast<const volatile std::uint32_t*>(
       static_cast<std::uintptr_t>(vector_table_offset));
   for (std::size_t i = 0; i < exceptions_of_processor; ++i) {

@@ -52,10 +52,10 @@ class PeriodSink {
 };
 
 struct PlantSample {
-  double time_s;
+  double time_s = 0.0;
   PlantState state;
-  double drive_force_N;
-  double sliding_velocity_m_per_s;
+  double drive_force_N = 0.0;
+  double sliding_velocity_m_per_s = 0.0;
   double load_displacement_m = 0.0;  ///< 0 without a load
 };
 

@@ -70,16 +70,16 @@ struct EnergyBalance {
 /// are relative to is zero. φ_fu = pull + σ (φ_iu − stored change − damping). Under a law whose
 /// undriven friction is μN, and where that and Vt are constant, the pull is ρ.
 struct PowerRatios {
-  double friction_ratio;          ///< ρ = ∫F·sgn(Vt) dt / ∫F0 dt, F0 the undriven friction
-  double pull_ratio;              ///< ∫F Vt dt: put in by whatever slides
-  double dissipation_ratio;       ///< φ_fu
-  double drive_input_ratio;       ///< φ_iu
-  double stored_change_ratio;     ///< change of the oscillator's energy
-  double damping_ratio;           ///< taken by the damper
-  double balance_residual;        ///< of the identity, relative to its largest term; with a load
-                                  ///< of both identities together
-  double dissipation_as_printed;  ///< 1 + φ_iu − φ_su, φ_su from the average stored energy; NaN
-                                  ///< with a load
+  double friction_ratio = 0.0;       ///< ρ = ∫F·sgn(Vt) dt / ∫F0 dt, F0 the undriven friction
+  double pull_ratio = 0.0;           ///< ∫F Vt dt: put in by whatever slides
+  double dissipation_ratio = 0.0;    ///< φ_fu
+  double drive_input_ratio = 0.0;    ///< φ_iu
+  double stored_change_ratio = 0.0;  ///< change of the oscillator's energy
+  double damping_ratio = 0.0;        ///< taken by the damper
+  double balance_residual = 0.0;     ///< of the identity, relative to its largest term; with a load
+                                     ///< of both identities together
+  /// 1 + φ_iu − φ_su, φ_su from the average stored energy; NaN with a load.
+  double dissipation_as_printed = 0.0;
   double load_force_ratio = 0.0;          ///< of a load: put in by the applied force
   double load_spring_pull_ratio = 0.0;    ///< by the pulled end of its spring
   double load_damping_ratio = 0.0;        ///< taken by its damper

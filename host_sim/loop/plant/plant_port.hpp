@@ -49,9 +49,9 @@ DrivePiece drive_piece(const Stretch& stretch);
 double drive_force_N(const Stretch& stretch, double offset_s);
 
 struct PlantState {
-  double displacement_m;
-  double velocity_m_per_s;
-  double friction_force_N;
+  double displacement_m = 0.0;
+  double velocity_m_per_s = 0.0;
+  double friction_force_N = 0.0;
   double load_velocity_m_per_s = 0.0;  ///< 0 without a load, as the next
   double load_extension_m = 0.0;       ///< of its spring
 };
