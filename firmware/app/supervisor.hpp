@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <new>
-#include <type_traits>
 
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/fault_log.hpp"
@@ -121,8 +119,7 @@ class Supervisor {
 
   /// Another controller in its place, for the next restart; not while driving. settle_at() follows.
   void reconfigure(const typename Controller::Parameters& parameters) {
-    static_assert(std::is_trivially_destructible_v<Controller>);
-    new (&controller_) Controller(parameters);  // where it stays: to copy it takes as long again
+    controller_ = Controller(parameters);
   }
 
   /// The last sample and the answer to it.
