@@ -52,11 +52,13 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
 
   /// What is ordered; a later fault than those it knows of overtakes a restart and a target.
   struct Order {
+    explicit Order(const Parameters& parameters) : controller(parameters) {}
+
     Kind kind = Kind::restart;
     std::uint32_t faults = 0;
     Scalar half_ratio{};
     std::uint32_t timeout_periods = 0;
-    Parameters parameters{};
+    ControllerT controller;  ///< of other parameters; made by the service, which has the time
   };
 
   using Work = typename OrderSlot<Order, Atomic>::Work;
@@ -70,7 +72,8 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
       : Base(parameters),
         designed_(designed),
         timeout_periods_(timeout_periods),
-        service_periods_(service_periods) {
+        service_periods_(service_periods),
+        orders_(parameters) {
     Base::settle_at(designed_);
   }
 
@@ -157,7 +160,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     order.kind = Kind::parameters;
     order.half_ratio = half_ratio;
     order.timeout_periods = timeout_periods;
-    order.parameters = parameters;
+    order.controller = ControllerT(parameters);
     orders_.post();
   }
   /// Of the order that was given last.
@@ -186,7 +189,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         break;
       case Kind::parameters:
         timeout_periods_ = order.timeout_periods;
-        Base::reconfigure(order.parameters);
+        Base::replace(order.controller);
         Base::settle_at(designed_);
         Base::set_target(order.half_ratio);
         break;

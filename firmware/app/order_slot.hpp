@@ -21,6 +21,10 @@ enum class OrderEnd : std::uint8_t {
 template <class Content, template <class> class Atomic = std::atomic>
 class OrderSlot {
  public:
+  /// @param arguments  of the first content
+  template <class... Arguments>
+  explicit OrderSlot(const Arguments&... arguments) : content_(arguments...) {}
+
   // ---- The service's ----
 
   void stop() { stops_.store(++stops_posted_, std::memory_order_release); }
@@ -66,7 +70,7 @@ class OrderSlot {
   }
 
  private:
-  Content content_{};
+  Content content_;
   std::uint32_t content_stops_ = 0;  ///< stops that were posted before the order
   OrderEnd end_ = OrderEnd::done;
   std::uint32_t orders_posted_ = 0;  ///< of the service alone, as the next

@@ -118,9 +118,7 @@ class Supervisor {
   void set_target(Scalar half_ratio) { controller_.set_target(half_ratio); }
 
   /// Another controller in its place, for the next restart; not while driving. settle_at() follows.
-  void reconfigure(const typename Controller::Parameters& parameters) {
-    controller_ = Controller(parameters);
-  }
+  void replace(const Controller& controller) { controller_ = controller; }
 
   /// The last sample and the answer to it.
   const hal::Sample& sample() const { return sample_; }

@@ -179,7 +179,7 @@ std::uint32_t replayed_hash() {
   std::size_t next = 0;
   cost_count = 0;
   hal::cortex_m::SysTick::start();
-  Supervised::Order order;
+  Supervised::Order order(design.controller_parameters(design.presets()));
   while (run->period() < periods) {
     Supervised::Work work{false, nullptr};
     if (next < event_count && events[next].period == run->period()) {
@@ -189,7 +189,7 @@ std::uint32_t replayed_hash() {
       order.half_ratio =
           design.half_target(event.kind == Supervised::Kind::target ? event.number : 400'000);
       if (event.kind == Supervised::Kind::parameters) {
-        order.parameters = parameters_with(event.number);
+        order.controller = Supervised::Controller(parameters_with(event.number));
       }
       work = {event.stop, event.ordered ? &order : nullptr};
     }

@@ -159,11 +159,12 @@ TEST_P(TwoThreads, NeverTearWhatPassesBetweenThemAndAReplayIsTheSame) {
   });
   ControlSide control(supervisor);
   std::vector<Event> events;
+  const Supervised::Order no_order(field_design.controller_parameters(field_design.presets()));
   for (std::uint32_t period = 0; period < periods; ++period) {
     const Supervised::Work work = supervisor.look();
     if (work.stop || work.order != nullptr) {
       events.push_back({period, work.stop, work.order != nullptr,
-                        work.order != nullptr ? *work.order : Supervised::Order{}});
+                        work.order != nullptr ? *work.order : no_order});
     }
     control.serve(period, work);
     if (period % 64 == 0) {
