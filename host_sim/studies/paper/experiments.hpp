@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_sim/output/page.hpp"
-#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 
 namespace sonoglide::paper {
 

@@ -12,9 +12,9 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/steady_orbit.hpp"
 #include "host_sim/scene_file/reader.hpp"
-#include "host_sim/studies/paper/chart.hpp"
 #include "host_sim/studies/paper/contact_laws.hpp"
 #include "host_sim/studies/paper/experiments.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 

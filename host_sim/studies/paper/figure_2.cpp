@@ -5,7 +5,7 @@
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
-#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/solver_methods.hpp"
-#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host_sim/output/output_folder.hpp"
-#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 
 namespace sonoglide::paper {

@@ -9,7 +9,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 

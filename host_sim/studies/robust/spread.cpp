@@ -5,18 +5,14 @@
 #include <boost/random/sobol.hpp>
 #include <cmath>
 
+#include "host_sim/studies/splitmix64.hpp"
+
 namespace sonoglide::robust {
 namespace {
 
-/// The last step of the generator splitmix64 (Steele, Lea and Flood 2014): every bit of the input
-/// reaches every bit of the result.
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31);
-}
+using studies::mixed;
+using studies::splitmix64_step;
 
-constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;
 constexpr int digits = 52;
 
 /// @param digits_of  the first digits of the coordinate, as an integer
@@ -26,7 +22,7 @@ double scrambled(std::uint64_t digits_of, std::uint64_t key) {
   for (int i = 0; i < digits; ++i) {
     // A leading 1 tells prefixes of different lengths apart.
     const std::uint64_t above = (digits_of >> (digits - i)) | (std::uint64_t{1} << i);
-    const std::uint64_t flip = mixed(key + golden * above) >> 63;
+    const std::uint64_t flip = mixed(key + splitmix64_step * above) >> 63;
     const int place = digits - 1 - i;
     flipped |= (((digits_of >> place) & 1U) ^ flip) << place;
   }
@@ -68,7 +64,7 @@ std::vector<double> scrambled_sobol(std::size_t dimensions, std::size_t count, s
   boost::random::sobol engine(dimensions);
   std::vector<std::uint64_t> keys;
   for (std::size_t i = 0; i < dimensions; ++i) {
-    keys.push_back(mixed(mixed(seed + golden) + golden * (i + 1)));
+    keys.push_back(mixed(mixed(seed + splitmix64_step) + splitmix64_step * (i + 1)));
   }
   std::vector<double> points;
   points.reserve(dimensions * count);

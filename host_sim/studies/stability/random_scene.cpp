@@ -5,6 +5,7 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/studies/splitmix64.hpp"
 #include "host_sim/studies/stability/settings.hpp"
 
 namespace sonoglide::stability {
@@ -12,15 +13,15 @@ namespace {
 
 constexpr double ln_10 = 2.302585092994045684018;
 
-/// SplitMix64 of Steele, Lea and Flood (2014), a stream for each number.
+/// A stream of splitmix64 for each number.
 class Dice {
  public:
-  explicit Dice(std::uint64_t number) : state_(mixed(number)) {}
+  explicit Dice(std::uint64_t number) : state_(studies::mixed(number)) {}
 
   /// [0, 1), 53 bits.
   double uniform() {
-    state_ += 0x9E3779B97F4A7C15U;
-    return static_cast<double>(mixed(state_) >> 11U) * 0x1p-53;
+    state_ += studies::splitmix64_step;
+    return static_cast<double>(studies::mixed(state_) >> 11U) * 0x1p-53;
   }
   bool chance(double probability) { return uniform() < probability; }
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
@@ -34,12 +35,6 @@ class Dice {
   }
 
  private:
-  static std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
-    return x ^ (x >> 31U);
-  }
-
   std::uint64_t state_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "firmware/numeric/fixed.hpp"
@@ -110,21 +111,6 @@ std::vector<std::int32_t> edge_values() {
   return edges;
 }
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
-class RandomBits {
- public:
-  std::uint64_t next() {
-    state_ += 0x9E3779B97F4A7C15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31);
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
 /// A random 32-bit value of random width, so that small values are met as often as large ones.
 std::int32_t of_random_width(std::uint32_t bits, unsigned width) {
   return static_cast<std::int32_t>(bits) >> (width & 31U);
@@ -139,10 +125,10 @@ std::int64_t wrong_among_edges_and_random(IsRight is_right) {
       wrong += is_right(a, b) ? 0 : 1;
     }
   }
-  RandomBits random;
+  std::mt19937_64 random;
   for (int i = 0; i < 100'000'000; ++i) {
-    const std::uint64_t bits = random.next();
-    const auto widths = static_cast<unsigned>(random.next());
+    const std::uint64_t bits = random();
+    const auto widths = static_cast<unsigned>(random());
     const std::int32_t a = of_random_width(static_cast<std::uint32_t>(bits), widths);
     const std::int32_t b = of_random_width(static_cast<std::uint32_t>(bits >> 32), widths >> 5);
     wrong += is_right(a, b) ? 0 : 1;

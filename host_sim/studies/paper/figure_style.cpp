@@ -1,4 +1,4 @@
-#include "host_sim/studies/paper/chart.hpp"
+#include "host_sim/studies/paper/figure_style.hpp"
 
 #include <fmt/format.h>
 
