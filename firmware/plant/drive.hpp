@@ -116,12 +116,19 @@ struct CosineDrive {
   };
 };
 
-/// A force that is linear in time. Straight::at(amplitude, phase) is the force at a phase,
-/// Straight::slope(amplitude) its increase per radian.
-template <class Straight>
+/// at_zero + slope phase, the phase in radians.
+template <class Scalar>
+struct StraightForce {
+  Scalar at_zero = Scalar(0);
+  Scalar slope = Scalar(0);
+
+  Scalar at(Scalar phase) const { return at_zero + slope * phase; }
+};
+
+/// A piece of a square wave, a triangle or a sawtooth: the force is linear in time.
 struct StraightDrive {
   template <class Scalar>
-  using Amplitude = Scalar;
+  using Amplitude = StraightForce<Scalar>;
 
   /// The drive at one phase.
   template <class Scalar>
@@ -129,8 +136,8 @@ struct StraightDrive {
     Scalar force;
     Scalar slope;
 
-    Phasor(Scalar amplitude, Scalar phase)
-        : force(Straight::at(amplitude, phase)), slope(Straight::slope(amplitude)) {}
+    Phasor(const StraightForce<Scalar>& amplitude, Scalar phase)
+        : force(amplitude.at(phase)), slope(amplitude.slope) {}
     Scalar value() const { return force; }
     Scalar bound() const { return numeric::abs(force) + numeric::abs(slope); }
   };
@@ -155,43 +162,17 @@ struct StraightDrive {
   template <class Scalar>
   class Samples {
    public:
-    Samples(Scalar amplitude, Scalar phase, Scalar spacing)
+    Samples(const StraightForce<Scalar>& amplitude, Scalar phase, Scalar spacing)
         : amplitude_(amplitude), phase_(phase), spacing_(spacing) {}
-    Scalar value() const { return Straight::at(amplitude_, phase_ + count_ * spacing_); }
+    Scalar value() const { return amplitude_.at(phase_ + count_ * spacing_); }
     void next() { count_ += Scalar(1); }
 
    private:
-    Scalar amplitude_;
+    StraightForce<Scalar> amplitude_;
     Scalar phase_;
     Scalar spacing_;
     Scalar count_ = Scalar(0);
   };
 };
-
-/// a phase: a piece of a triangle or a sawtooth. The phase counts from the zero of the force.
-struct Ramp {
-  template <class Scalar>
-  static Scalar at(Scalar amplitude, Scalar phase) {
-    return amplitude * phase;
-  }
-  template <class Scalar>
-  static Scalar slope(Scalar amplitude) {
-    return amplitude;
-  }
-};
-using RampDrive = StraightDrive<Ramp>;
-
-/// a: half a square wave.
-struct Level {
-  template <class Scalar>
-  static Scalar at(Scalar amplitude, Scalar /*phase*/) {
-    return amplitude;
-  }
-  template <class Scalar>
-  static Scalar slope(Scalar /*amplitude*/) {
-    return Scalar(0);
-  }
-};
-using LevelDrive = StraightDrive<Level>;
 
 }  // namespace sonoglide::plant

@@ -61,7 +61,7 @@ struct Damped {
 ///
 /// Law      friction::None, or another law of friction/ (law.hpp lists what a law offers)
 /// Damping  Undamped or Damped
-/// DriveOf  NoDrive, CosineDrive, RampedCosineDrive, RampDrive or LevelDrive
+/// DriveOf  NoDrive, CosineDrive, RampedCosineDrive or StraightDrive
 /// SlidingOf  LinearSliding, or ConstantSliding where no interval has a sliding acceleration;
 ///            LoadedModel has MovingBody
 /// What is not named has no member: the parameters of a law and of the damping are its own.

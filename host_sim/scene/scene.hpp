@@ -126,6 +126,8 @@ struct Drive {
   /// Closed loop: largest force that is constant over a carrier period; 0: none.
   double bias_limit_N = 0.0;
 
+  /// Within each piece of a carrier period the force is linear in time.
+  bool is_straight() const { return waveform != Waveform::cosine; }
   /// Within a carrier period there may be more than a cosine of one amplitude.
   bool is_ramped() const {
     return (interpolation == Interpolation::linear && codes_per_period == 1) || bias_limit_N > 0.0;

@@ -33,11 +33,7 @@ LinearForce<Scalar> force_of(const RampedCosineDrive::Phasor<Scalar>& drive) {
   return {drive.bias, Scalar(0), drive.level.in_phase, -drive.level.quadrature};
 }
 template <class Scalar>
-LinearForce<Scalar> force_of(const RampDrive::Phasor<Scalar>& drive) {
-  return {drive.force, drive.slope, Scalar(0), Scalar(0)};
-}
-template <class Scalar>
-LinearForce<Scalar> force_of(const LevelDrive::Phasor<Scalar>& drive) {
+LinearForce<Scalar> force_of(const StraightDrive::Phasor<Scalar>& drive) {
   return {drive.force, drive.slope, Scalar(0), Scalar(0)};
 }
 

@@ -21,22 +21,15 @@ std::unique_ptr<PlantPort> loaded_plant(const PlantDescription& description, con
   return find_solver<std::decay_t<decltype(model)>>(scene.solver)(description, model);
 }
 
-/// The general composition of a cosine serves its own scenes too: loads are rare.
 template <class Law>
 std::unique_ptr<PlantPort> make_loaded_plant(const PlantDescription& description, const Law& law) {
   if constexpr (Law::template Core<double>::vibration != friction::Vibration::along) {
     throw std::logic_error("no load slides with this friction law");
   } else {
-    switch (description.scene.drive ? description.scene.drive->waveform : scene::Waveform::cosine) {
-      case scene::Waveform::square:
-        return loaded_plant<plant::LevelDrive>(description, law);
-      case scene::Waveform::triangle:
-      case scene::Waveform::sawtooth:
-        return loaded_plant<plant::RampDrive>(description, law);
-      case scene::Waveform::cosine:
-        break;
-    }
-    return loaded_plant<plant::RampedCosineDrive>(description, law);
+    const scene::Scene& scene = description.scene;
+    return scene.drive && scene.drive->is_straight()
+               ? loaded_plant<plant::StraightDrive>(description, law)
+               : loaded_plant<plant::RampedCosineDrive>(description, law);
   }
 }
 

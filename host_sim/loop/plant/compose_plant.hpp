@@ -69,17 +69,12 @@ inline bool composed_lean(scene::SolverMethod method) {
                             [](auto described) { return decltype(described)::composed_lean; });
 }
 
-template <class Drive>
-inline constexpr bool is_straight = false;
-template <class Straight>
-inline constexpr bool is_straight<plant::StraightDrive<Straight>> = true;
-
 namespace detail {
 
 /// The orders in which a solver is built for a model.
 template <class Described, class Model>
 constexpr const auto& orders() {
-  if constexpr (is_straight<typename Model::Drive>) {
+  if constexpr (std::is_same_v<typename Model::Drive, plant::StraightDrive>) {
     return Described::straight_orders;
   } else {
     return Described::orders;
@@ -152,7 +147,7 @@ std::unique_ptr<PlantPort> with_solver(const PlantDescription& description, cons
 }
 
 /// One composition serves every rare scene: it always uses the damped plant, whose damping is 0 if
-/// the scene has none, and a sliding velocity that may change.
+/// the scene has none, a sliding velocity that may change and an amplitude that may be ramped.
 template <class Drive, class Law>
 std::unique_ptr<PlantPort> general_plant(const PlantDescription& description, const Law& law) {
   return with_solver<plant::Damped, Drive, plant::LinearSliding>(description, law);
@@ -179,24 +174,17 @@ inline constexpr bool is_quick_law =
 template <class Law>
 std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, const Law& law) {
   const scene::Scene& scene = description.scene;
-  switch (scene.drive ? scene.drive->waveform : scene::Waveform::cosine) {
-    case scene::Waveform::square:
-      return general_plant<plant::LevelDrive>(description, law);
-    case scene::Waveform::triangle:
-    case scene::Waveform::sawtooth:
-      return general_plant<plant::RampDrive>(description, law);
-    case scene::Waveform::cosine:
-      break;
-  }
-  if (scene.drive && scene.drive->is_ramped()) {
-    return general_plant<plant::RampedCosineDrive>(description, law);
+  if (scene.drive && scene.drive->is_straight()) {
+    return general_plant<plant::StraightDrive>(description, law);
   }
   if constexpr (is_quick_law<Law>) {
-    if (SlidingProfile(scene.sliding).is_constant() && composed_lean(scene.solver.method)) {
+    const bool is_ramped = scene.drive && scene.drive->is_ramped();
+    if (!is_ramped && SlidingProfile(scene.sliding).is_constant() &&
+        composed_lean(scene.solver.method)) {
       return lean_plant(description, law);
     }
   }
-  return general_plant<plant::CosineDrive>(description, law);
+  return general_plant<plant::RampedCosineDrive>(description, law);
 }
 
 }  // namespace sonoglide::loop

@@ -230,15 +230,19 @@ class ComposedPlant final : public PlantPort {
   static constexpr bool is_normal = Model::FrictionLaw::vibration == friction::Vibration::normal;
 
   static constexpr bool is_ramped = std::is_same_v<typename Model::Drive, plant::RampedCosineDrive>;
+  static constexpr bool is_straight = std::is_same_v<typename Model::Drive, plant::StraightDrive>;
 
   /// In units of force, as the drive of the model takes it.
-  typename Model::Drive::template Amplitude<double> amplitude(const Stretch& stretch,
-                                                              double amplitude_N) const {
+  typename Model::Drive::template Amplitude<double> amplitude(const DrivePiece& drive,
+                                                              double bias_N) const {
+    const double at_zero = drive.at_zero_N / scales_.force_N;
+    const double slope = drive.slope_N_per_rad / scales_.force_N;
     if constexpr (is_ramped) {
-      return {amplitude_N / scales_.force_N, stretch.drive_slope_N_per_rad / scales_.force_N,
-              stretch.drive_bias_N / scales_.force_N};
+      return {at_zero, slope, bias_N / scales_.force_N};
+    } else if constexpr (is_straight) {
+      return {at_zero, slope};
     } else {
-      return amplitude_N / scales_.force_N;
+      return at_zero;
     }
   }
 
@@ -307,7 +311,7 @@ class ComposedPlant final : public PlantPort {
     plant::IntervalOf<Model> interval{};
     interval.phase_begin = drive.phase_rad;
     interval.duration = stretch.duration_s * omega;
-    interval.drive_amplitude = amplitude(stretch, drive.amplitude_N);
+    interval.drive_amplitude = amplitude(drive, stretch.drive_bias_N);
     interval.sliding_velocity = stretch.sliding_velocity_m_per_s / scales_.velocity_m_per_s();
     interval.sliding_acceleration =
         stretch.sliding_acceleration_m_per_s2 / (scales_.velocity_m_per_s() * omega);

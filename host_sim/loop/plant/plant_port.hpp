@@ -36,10 +36,10 @@ struct Stretch {
   const UndrivenFriction* undriven = nullptr;  ///< null: Fc, at any speed
 };
 
-/// As plant::CosineDrive, RampDrive or LevelDrive, whichever is the waveform's, takes it; of a
-/// RampedCosineDrive the amplitude at phase 0.
+/// at_zero_N + slope_N_per_rad phase: of straight pieces the force, of a cosine its amplitude.
 struct DrivePiece {
-  double amplitude_N;
+  double at_zero_N;
+  double slope_N_per_rad;
   double phase_rad;  ///< at the beginning of the stretch
 };
 

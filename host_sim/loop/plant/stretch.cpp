@@ -22,32 +22,25 @@ DrivePiece drive_piece(const Stretch& stretch) {
   const bool second = in_second_half(stretch);
   switch (stretch.drive_waveform) {
     case scene::Waveform::square:
-      return {second ? -amplitude : amplitude, phase};
+      return {second ? -amplitude : amplitude, 0.0, phase};
     case scene::Waveform::triangle:
-      return second ? DrivePiece{amplitude / (0.5 * half_turn), phase - 1.5 * half_turn}
-                    : DrivePiece{-amplitude / (0.5 * half_turn), phase - 0.5 * half_turn};
+      return second ? DrivePiece{0.0, amplitude / (0.5 * half_turn), phase - 1.5 * half_turn}
+                    : DrivePiece{0.0, -amplitude / (0.5 * half_turn), phase - 0.5 * half_turn};
     case scene::Waveform::sawtooth:
-      return {-amplitude / half_turn, phase - half_turn};
+      return {0.0, -amplitude / half_turn, phase - half_turn};
     case scene::Waveform::cosine:
       break;
   }
-  return {amplitude, phase};
+  return {amplitude, stretch.drive_slope_N_per_rad, phase};
 }
 
 double drive_force_N(const Stretch& stretch, double offset_s) {
   const DrivePiece piece = drive_piece(stretch);
   const double phase_rad = piece.phase_rad + stretch.drive_rate_rad_per_s * offset_s;
-  switch (stretch.drive_waveform) {
-    case scene::Waveform::square:
-      return piece.amplitude_N;
-    case scene::Waveform::triangle:
-    case scene::Waveform::sawtooth:
-      return piece.amplitude_N * phase_rad;
-    case scene::Waveform::cosine:
-      break;
-  }
-  return (piece.amplitude_N + stretch.drive_slope_N_per_rad * phase_rad) * std::cos(phase_rad) +
-         stretch.drive_bias_N;
+  const double linear_N = piece.at_zero_N + piece.slope_N_per_rad * phase_rad;
+  return stretch.drive_waveform == scene::Waveform::cosine
+             ? linear_N * std::cos(phase_rad) + stretch.drive_bias_N
+             : linear_N;
 }
 
 }  // namespace sonoglide::loop

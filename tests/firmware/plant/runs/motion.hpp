@@ -39,14 +39,14 @@ using StateFor = StateOf<typename Solver::Model::FrictionLaw>;
 
 template <class Solver, class Account>
 Outcome<typename Solver::Scalar> advance(Solver& solver,
-                                         const Interval<typename Solver::Scalar>& interval,
+                                         const IntervalOf<typename Solver::Model>& interval,
                                          StateFor<Solver>& state, Account& account) {
   NoObserver observer;
   return solver.advance(interval, state, account, observer);
 }
 
 template <class Solver>
-StateFor<Solver> advanced(Solver& solver, const Interval<typename Solver::Scalar>& interval,
+StateFor<Solver> advanced(Solver& solver, const IntervalOf<typename Solver::Model>& interval,
                           StateFor<Solver> state) {
   NoAccount account;
   advance(solver, interval, state, account);

@@ -45,7 +45,8 @@ struct Record {
 };
 
 template <class Solver>
-Record run(const typename Solver::Model& model, const std::vector<Interval<double>>& intervals,
+Record run(const typename Solver::Model& model,
+           const std::vector<IntervalOf<typename Solver::Model>>& intervals,
            const State<double>& from) {
   Solver solver;
   solver.configure(model, 1e-13);
@@ -55,7 +56,7 @@ Record run(const typename Solver::Model& model, const std::vector<Interval<doubl
     state.memory = model.law.memory_at(from.friction);
   }
   Record record;
-  for (const Interval<double>& interval : intervals) {
+  for (const auto& interval : intervals) {
     Demodulator<double> demodulator(interval.phase_begin);
     EXPECT_EQ(solver.advance(interval, state, record.account, demodulator).error, Error::none);
     record.in_phase += demodulator.in_phase();
@@ -121,17 +122,20 @@ TEST(StiffLinear, WithoutFrictionAgreesWithTaylor) {
 }
 
 TEST(StiffLinear, DrivesOfStraightPiecesAgreeWithTaylor) {
-  using Ramped = ModelOf<friction::None<double>, RampDrive>;
-  using Level = ModelOf<friction::Coulomb<double>, LevelDrive>;
+  using Free = ModelOf<friction::None<double>, StraightDrive>;
+  using Rubbing = ModelOf<friction::Coulomb<double>, StraightDrive>;
   for (const double damping : dampings()) {
     SCOPED_TRACE(damping);
-    const std::vector<Interval<double>> pieces = {{-0.5 * period, period, 1e4, 9e3, 0.0},
-                                                  {-0.5 * period, period, -1e4, 9e3, 0.0}};
-    const Ramped ramped = {{}, {damping}, stiffness};
-    expect_same(run<Stiff<Ramped>>(ramped, pieces, {}), run<Taylor<Ramped>>(ramped, pieces, {}),
-                stiffness, 2e-10);
-    const Level level = {{{}, 1e4, 1.0}, {damping}, stiffness};
-    expect_same(run<Stiff<Level>>(level, pieces, {}), run<Taylor<Level>>(level, pieces, {}),
+    const std::vector<IntervalOf<Free>> ramps = {{-0.5 * period, period, {0.0, 1e4}, 9e3, 0.0},
+                                                 {-0.5 * period, period, {0.0, -1e4}, 9e3, 0.0}};
+    const Free free = {{}, {damping}, stiffness};
+    expect_same(run<Stiff<Free>>(free, ramps, {}), run<Taylor<Free>>(free, ramps, {}), stiffness,
+                2e-10);
+    const std::vector<IntervalOf<Rubbing>> levels = {
+        {-0.5 * period, period, {1e4, 0.0}, 9e3, 0.0},
+        {-0.5 * period, period, {-1e4, 0.0}, 9e3, 0.0}};
+    const Rubbing rubbing = {{{}, 1e4, 1.0}, {damping}, stiffness};
+    expect_same(run<Stiff<Rubbing>>(rubbing, levels, {}), run<Taylor<Rubbing>>(rubbing, levels, {}),
                 stiffness, 2e-10);
   }
 }
