@@ -63,9 +63,14 @@ TEST(SolverError, FrictionBoundBrokenByRk4InAStiffContact) {
 
 TEST(SolverError, TooManySteps) {
   const Contact ringing = Case().contact_stiffness(1e16).friction_force(10.0).stiffness(0.5);
-  const Outcome<double> stuck = outcome<Taylor>(ringing, 1e-8, lasting(2.0 * pi).driven(1.0), {});
+  Taylor few;
+  few.configure(ringing, 1e-8, 1000);
+  NoAccount account;
+  State<double> state;
+  const auto stuck = advance(few, lasting(2.0 * pi).driven(1.0), state, account);
   EXPECT_EQ(stuck.error, Error::too_many_steps);
   EXPECT_LT(stuck.offset, period.duration);
+  EXPECT_EQ(few.cost().steps, 1000U);
   EXPECT_EQ(outcome<Rk4<Contact>>(ordinary, 1e-9, period, {}).error, Error::too_many_steps);
 }
 
