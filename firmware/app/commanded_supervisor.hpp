@@ -32,7 +32,8 @@ struct Snapshot {
 ///
 /// In each carrier period the control side does one of these: a stop, an order to restart or to take
 /// other parameters, or a step of the controller, with a new target if one is ordered. So its longest
-/// period is hardly longer than a step. In the period of a restart the drive is at zero.
+/// period is hardly longer than a step. In the period of a restart the drive is at zero. An order is a sign
+/// of life, so nobody else is watched in its period.
 ///
 /// If the host is silent for longer than the timeout while the unit drives, the fault is host_silent, and
 /// the drive ramps down. If the service does not come round for its time while the unit drives, the
@@ -92,12 +93,13 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
       Base::stop();
       return Base::drive();
     }
-    if (work.order != nullptr && !carry_out(*work.order)) {
+    if (work.order == nullptr) {
+      watch_service();
+      watch_host();
+    } else if (!carry_out(*work.order)) {
       return Base::drive();
     }
-    watch_service();
-    watch_host();
-    return Base::answer();
+    return Base::answer(sample);
   }
 
   /// The service came round of late.
@@ -105,12 +107,11 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
 
   /// Shows the period to the service; after step() and trip().
   void publish() {
-    const hal::Sample& sample = Base::sample();
     const hal::Drive& drive = Base::drive();
     shown_.begin();
     shown_.write(0, Base::periods());
-    shown_.write(1, static_cast<std::uint32_t>(sample.friction_force));
-    shown_.write(2, static_cast<std::uint32_t>(sample.sliding_velocity));
+    shown_.write(1, static_cast<std::uint32_t>(Base::friction_force()));
+    shown_.write(2, static_cast<std::uint32_t>(Base::sliding_velocity()));
     shown_.write(3, static_cast<std::uint32_t>(drive.amplitude));
     shown_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
     shown_.write(5, drive.state | std::uint32_t{drive.limit} << 8 |

@@ -83,20 +83,21 @@ class Supervisor {
   /// One carrier period.
   const hal::Drive& step(const hal::Sample& sample) {
     begin(sample);
-    return answer();
+    return answer(sample);
   }
 
-  /// The first part of step(): counts the period and keeps its sample.
+  /// The first part of step(): counts the period and keeps what it showed.
   void begin(const hal::Sample& sample) {
     ++periods_;
-    sample_ = sample;
+    friction_force_ = sample.friction_force;
+    sliding_velocity_ = sample.sliding_velocity;
   }
 
   /// The other: answers the sample.
-  const hal::Drive& answer() {
+  const hal::Drive& answer(const hal::Sample& sample) {
     if (running()) {
       drive_ = drive_of(
-          controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample_)));
+          controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample)));
       if (!running()) {
         log_.add({drive_.fault, periods_});
       }
@@ -120,8 +121,9 @@ class Supervisor {
   /// Another controller in its place, for the next restart; not while driving. settle_at() follows.
   void replace(const Controller& controller) { controller_ = controller; }
 
-  /// The last sample and the answer to it.
-  const hal::Sample& sample() const { return sample_; }
+  /// Codes of the last sample, and the answer to it.
+  std::int32_t friction_force() const { return friction_force_; }
+  std::int32_t sliding_velocity() const { return sliding_velocity_; }
   const hal::Drive& drive() const { return drive_; }
   /// Served since reset; wraps, after 19.9 h at 60 kHz.
   std::uint32_t periods() const { return periods_; }
@@ -142,7 +144,8 @@ class Supervisor {
   }
 
   Controller controller_;
-  hal::Sample sample_{};
+  std::int32_t friction_force_ = 0;
+  std::int32_t sliding_velocity_ = 0;
   hal::Drive drive_{};
   std::uint32_t periods_ = 0;
   [[no_unique_address]] Host host_;

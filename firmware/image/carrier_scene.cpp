@@ -17,9 +17,9 @@ namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 namespace hal = sonoglide::hal;
 
-constexpr std::uint32_t ticks =
-    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board>::of(
-        configuration::carrier_period_s);
+constexpr std::uint32_t ticks = sonoglide::image::CarrierTicks<
+    configuration::Parts, Hardware::Board, configuration::every_periods,
+    configuration::delay_periods, configuration::interpolates>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
 

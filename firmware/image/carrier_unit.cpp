@@ -18,16 +18,16 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
-constexpr std::uint32_t ticks =
-    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board>::of(
-        configuration::carrier_period_s);
+constexpr std::uint32_t ticks = sonoglide::image::CarrierTicks<
+    configuration::Parts, Hardware::Board, configuration::every_periods,
+    configuration::delay_periods, configuration::interpolates>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
 
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
                                                         configuration::target_steps[0].half_ratio,
                                                         configuration::design,
-                                                        configuration::carrier_period_s,
+                                                        configuration::step_period_s,
                                                         app::default_timeout_ms);
 
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;

@@ -9,6 +9,7 @@
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
+#include "hal/timed/board.hpp"
 
 namespace {
 
@@ -17,7 +18,8 @@ namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
 /// Of the loop; the carrier is derived from the same clock.
-constexpr double period_s = Hardware::carriers_per_period * configuration::carrier_period_s;
+constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
+    configuration::carrier_period_s, configuration::every_periods);
 
 /// The time of an emulator is not that of the host: none would be a silence.
 constexpr std::uint32_t timeout_ms = 0;

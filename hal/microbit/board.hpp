@@ -68,7 +68,7 @@ class Flash {
 
 struct TimedHardware {
   /// 16 MHz leave 266 clocks for each carrier period; software floating point takes thousands.
-  static constexpr unsigned carriers_per_period = 128;
+  static constexpr unsigned least_periods = 128;
   using ByteLink = Uart;  ///< first: it starts the crystal
   using Board = timed::Board<Timer>;
   using Watchdog = microbit::Watchdog;

@@ -128,7 +128,7 @@ class Watchdog {
 template <std::uint32_t ClockHz, class ResetCause>
 struct TimedHardware {
   /// 25 MHz leave 416 clocks for each carrier period, 20 MHz 333.
-  static constexpr unsigned carriers_per_period = 16;
+  static constexpr unsigned least_periods = 16;
   using ByteLink = Uart<ClockHz>;
   using Board = timed::Board<cortex_m::ProcessorClock<ClockHz>>;
   using Watchdog = mps2::Watchdog<ClockHz, ResetCause>;

@@ -62,7 +62,7 @@ class Flash {
 /// uncounted. This happens only while parameters are saved, with the drive at zero.
 struct TimedHardware {
   /// The internal oscillator's 16 MHz leave 266 clocks for each carrier period.
-  static constexpr unsigned carriers_per_period = 16;
+  static constexpr unsigned least_periods = 16;
   using ByteLink = Uart;
   using Board = timed::Board<cortex_m::ProcessorClock<16000000>>;
   using Watchdog = netduinoplus2::Watchdog;

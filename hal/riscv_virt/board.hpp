@@ -38,7 +38,7 @@ class MachineTimer {
 // What a unit that keeps its own time finds on QEMU's RISC-V virt.
 
 struct TimedHardware {
-  static constexpr unsigned carriers_per_period = 16;
+  static constexpr unsigned least_periods = 16;
   using ByteLink = Uart;
   using Board = timed::Board<MachineTimer>;
   using Watchdog = NoWatchdog;

@@ -44,7 +44,16 @@ class StandInContact {
   std::int32_t amplitude_ = 0;
 };
 
-/// Begins a carrier period every so many ticks, and takes its samples from a StandInContact,
+/// Of the loop: controller.every_periods carrier periods, as the scene is designed. An emulated processor
+/// is slower than one that one would buy: of a scene with fewer, a period of the loop is
+/// Hardware::least_periods carrier periods, and all the rest is as much slower than designed.
+template <class Hardware>
+constexpr double loop_period_s(double carrier_period_s, unsigned every_periods) {
+  return (every_periods < Hardware::least_periods ? Hardware::least_periods : every_periods) *
+         carrier_period_s;
+}
+
+/// Begins a period of the loop every so many ticks, and takes its samples from a stand-in for the contact,
 /// because it has neither converter nor transducer. Periods are counted from the counter's value,
 /// so that a period in which nobody waited counts too. A call must come at least once in each turn
 /// of the counter.
@@ -53,13 +62,14 @@ class StandInContact {
 ///   static constexpr std::uint32_t hz;
 ///   static constexpr std::uint32_t largest;  // 2^n - 1: 0 comes after it
 ///   std::uint32_t ticks() const;
-template <class Clock>
+/// @tparam Contact  has drive(), live() and sample() as StandInContact
+template <class Clock, class Contact = StandInContact>
 class Board {
  public:
   static constexpr std::uint32_t clock_hz = Clock::hz;
   static constexpr std::uint32_t most_period_ticks = Clock::largest;
 
-  /// @param period_ticks  of a carrier period, 1 ... most_period_ticks.
+  /// @param period_ticks  of a period of the loop, 1 ... most_period_ticks.
   explicit Board(std::uint32_t period_ticks)
       : period_ticks_(period_ticks), begin_(clock_.ticks()) {}
 
@@ -85,7 +95,7 @@ class Board {
 
  private:
   Clock clock_{};
-  StandInContact contact_{};
+  Contact contact_{};
   std::uint32_t period_ticks_;
   std::uint32_t begin_;  ///< of the present period
   std::uint32_t period_ = 0;

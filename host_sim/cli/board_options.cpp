@@ -2,27 +2,51 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "host_sim/emulated/image.hpp"
 #include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::cli {
 
-std::string check_board(const std::string& name) {
-  if (emulated::find_board(name) != nullptr) {
-    return {};
-  }
+namespace {
+
+std::string check_among(const std::vector<emulated::EmulatedBoard>& boards,
+                        const std::string& name) {
   std::string allowed;
-  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
+  for (const emulated::EmulatedBoard& board : boards) {
+    if (board.name == name) {
+      return {};
+    }
     allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
   }
   return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
 }
 
+const std::map<std::string_view, const char*> packages = {
+    {"qemu-system-arm", "qemu-system-arm"},
+    {"qemu-system-riscv32", "qemu-system-misc"},
+    {"node", "nodejs"}};
+
+}  // namespace
+
+std::string check_board(const std::string& name) {
+  return check_among(emulated::emulated_boards(), name);
+}
+
+std::string check_any_board(const std::string& name) {
+  std::vector<emulated::EmulatedBoard> boards = emulated::emulated_boards();
+  const auto& others = emulated::carrier_boards();
+  boards.insert(boards.end(), others.begin(), others.end());
+  return check_among(boards, name);
+}
+
 void require_emulator(const emulated::EmulatedBoard& board) {
-  const std::string program(board.emulator);
-  process::require_program(program,
-                           program == "qemu-system-arm" ? "qemu-system-arm" : "qemu-system-misc");
+  process::require_program(std::string(board.emulator), packages.at(board.emulator));
+  emulated::run_command(board, {});
 }
 
 }  // namespace sonoglide::cli

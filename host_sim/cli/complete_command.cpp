@@ -30,8 +30,10 @@ void offer(std::string_view word, std::string_view meaning) {
 
 void offer_boards() {
   fmt::print("words\n");
-  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    fmt::print("{}\n", board.name);
+  for (const auto* boards : {&emulated::emulated_boards(), &emulated::carrier_boards()}) {
+    for (const emulated::EmulatedBoard& board : *boards) {
+      fmt::print("{}\n", board.name);
+    }
   }
 }
 

@@ -36,10 +36,15 @@ loop::RunResult compute(const experiment::Experiment& experiment,
   return emulated::run_image(experiment, board, header, run_watch(report, bar));
 }
 
+/// Of a board that makes the carrier itself.
+constexpr const char* counts_are_clocks =
+    "on this board they are clocks, from the carrier's interrupt to its end\n";
+
 std::string header_for(const SceneInput& input, const experiment::Experiment& experiment,
                        const emulated::EmulatedBoard& board) {
   return input.with_places([&] {
     emulated::require_arithmetic(experiment.plant, board);
+    emulated::require_carrier_board(experiment.plant, board);
     return emulated::controller_header(experiment);
   });
 }
@@ -64,7 +69,8 @@ void pil(const PilOptions& options) {
   const loop::RunResult result = compute(experiment, board, header, report, options.quiet);
   report.finish(result);
   if (!options.quiet) {
-    fmt::print("{}{}", report::run_text(scene, result, report.findings()), report_line(out));
+    fmt::print("{}{}{}", report::run_text(scene, result, report.findings()),
+               board.image_suffix.empty() ? "" : counts_are_clocks, report_line(out));
   }
   emulated::require_same(result);
 }
@@ -80,7 +86,7 @@ void add_pil_command(CLI::App& program) {
   command->add_option("--board", options->board, "The board")
       ->required()
       ->type_name("NAME")
-      ->check(check_board);
+      ->check(check_any_board);
   add_output_option(*command, options->out,
                     "report.html and summary.json and, where the scene records anything, "
                     "periods.csv and trace.csv [out/<scene name>_<board>]");

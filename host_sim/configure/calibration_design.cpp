@@ -30,7 +30,7 @@ double mean_weight(double samples) {
   return std::min(1.0 / samples, largest_code);
 }
 
-/// How many carrier periods a sliding in either direction lasts before a time.
+/// How many periods a sliding in either direction lasts before a time.
 struct SlidingSpells {
   std::uint32_t last = 0;      ///< without a break up to that time
   std::uint32_t opposite = 0;  ///< the longest one the other way
@@ -60,7 +60,7 @@ SlidingSpells sliding_spells(const scene::Scene& scene, const ControlDesign& des
   std::size_t place = 0;
   for (std::uint32_t k = 1; k <= periods; ++k) {
     const double velocity_m_per_s =
-        sliding_velocity_m_per_s(profile, place, k * design.scales.carrier_period_s);
+        sliding_velocity_m_per_s(profile, place, k * design.scales.step_period_s());
     const bool turned = (velocity_m_per_s < 0.0) != backwards;
     backwards = velocity_m_per_s < 0.0;
     length = std::abs(velocity_m_per_s) < floor_m_per_s ? 0 : (turned ? 1 : length + 1);
@@ -69,7 +69,7 @@ SlidingSpells sliding_spells(const scene::Scene& scene, const ControlDesign& des
   return {length, longest[backwards ? 0 : 1]};
 }
 
-/// Carrier periods in which the contact slides through its presliding travel, so many times, and
+/// Periods in which the contact slides through its presliding travel, so many times, and
 /// the sensor settles.
 double settling_periods(const scene::Scene& scene, const NominalPlant& plant,
                         const ControlDesign& design, double presliding_travels) {
@@ -78,8 +78,9 @@ double settling_periods(const scene::Scene& scene, const NominalPlant& plant,
   const double speed_m_per_s = std::max(std::abs(scene.sliding.profile.front().velocity_m_per_s),
                                         design.speed_floor * scales.velocity_m_per_s);
   return std::ceil(presliding_travels * presliding_m(plant) /
-                       (speed_m_per_s * scales.carrier_period_s) +
-                   filter_settling * filter_periods(scene, scales) + scene.sensor.delay_periods);
+                       (speed_m_per_s * scales.step_period_s()) +
+                   filter_settling * filter_periods(scene, scales) +
+                   static_cast<double>(scene.sensor.delay_periods) / scales.every_periods);
 }
 
 /// Half of the largest difference of readings of a mass at rest. Of many the noise alone, of which
@@ -176,7 +177,7 @@ double gain_deviation(const scene::Scene& scene, const NominalPlant& plant) {
   return std::min(most, root_of_squares(scene.transducer ? force_factor : drive, of_stiffness));
 }
 
-/// Carrier periods that a reading may wait for the contact: half of the shortest target's time, with what
+/// Periods that a reading may wait for the contact: half of the shortest target's time, with what
 /// else a reading takes.
 /// @param others  what else it takes
 double longest_settling(const scene::Scene& scene, const ControlDesign& design, double others) {
@@ -190,7 +191,7 @@ double longest_settling(const scene::Scene& scene, const ControlDesign& design, 
       end_s = target->time_s;
     }
   }
-  return std::max(1.0, part * shortest_s / design.scales.carrier_period_s - others);
+  return std::max(1.0, part * shortest_s / design.scales.step_period_s() - others);
 }
 
 }  // namespace
@@ -198,7 +199,7 @@ double longest_settling(const scene::Scene& scene, const ControlDesign& design, 
 void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
                         ControlDesign& design) {
   design.usual_calibration_s = calibration_periods(scene, plant, design, usual_presliding_travels) *
-                               design.scales.carrier_period_s;
+                               design.scales.step_period_s();
   const double calibration_s = scene.controller->calibration_s.value_or(0.0);
   require_no_contradiction(scene);
   if (calibration_s <= 0.0) {
@@ -206,14 +207,14 @@ void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
   }
   const ControlScales& scales = design.scales;
   const double settling = settling_periods(scene, plant, design, least_presliding_travels);
-  const double total = std::round(calibration_s / scales.carrier_period_s) - 1.0;
+  const double total = std::round(calibration_s / scales.step_period_s()) - 1.0;
   if (total < settling + 1.0) {
     throw ConfigurationError(
         "controller.calibration_s",
         fmt::format(
             "is too short for contact and sensor to settle; allowed: 0 (no calibration), or "
             "at least {} s",
-            scene::at_least((settling + 2.0) * scales.carrier_period_s, 3)));
+            scene::at_least((settling + 2.0) * scales.step_period_s(), 3)));
   }
   design.calibrated = true;
   design.calibration_total_periods = static_cast<std::uint32_t>(total);
@@ -242,19 +243,19 @@ void design_relearning(const scene::Scene& scene, const NominalPlant& plant,
   }
   constexpr double presliding_travels = 6.0;  // 0.15 % of the force is left
   constexpr double filter_settling = 5.0;     // 0.7 % of it
-  constexpr double contact_settling = 2.0;    // carrier periods until the contact has forgotten
   const ControlScales& scales = design.scales;
   const double shaping = design.changing_periods();
   const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
   design.relearn_quiet_periods =
       whole_periods(shaping + slewing + filter_settling * filter_periods(scene, scales));
   design.relearn_reading_periods = whole_periods(latency_periods(scene));
-  design.relearn_return_periods = whole_periods(shaping + slewing + contact_settling);
+  design.relearn_return_periods =
+      whole_periods(shaping + slewing + contact_settling_periods(scene));
   design.relearn_average_periods = static_cast<std::uint8_t>(readings_for_mean(scene, plant));
   design.relearn_weight = mean_weight(design.relearn_average_periods);
   design.relearn_travel = presliding_travels * presliding_m(plant) /
-                          (64.0 * scales.velocity_m_per_s * scales.carrier_period_s);
-  const double every = std::round(*scene.controller->relearn_every_s / scales.carrier_period_s);
+                          (64.0 * scales.velocity_m_per_s * scales.step_period_s());
+  const double every = std::round(*scene.controller->relearn_every_s / scales.step_period_s());
   const double shortest = 10.0 * (design.relearn_quiet_periods + design.relearn_reading_periods +
                                   design.relearn_return_periods + design.relearn_average_periods);
   if (!(every >= shortest && design.relearn_travel < 1.0)) {
@@ -262,10 +263,11 @@ void design_relearning(const scene::Scene& scene, const NominalPlant& plant,
         "controller.relearn_every_s",
         design.relearn_travel < 1.0
             ? fmt::format("leaves no time between two pauses of the drive; allowed: at least {} s",
-                          scene::at_least(shortest * scales.carrier_period_s, 3))
-            : "cannot be kept: the presliding travel takes more than 64 carrier periods at the "
-              "peak "
-              "vibration velocity of full drive; remove it");
+                          scene::at_least(shortest * scales.step_period_s(), 3))
+            : fmt::format(
+                  "cannot be kept: the presliding travel takes more than {} carrier periods "
+                  "at the peak vibration velocity of full drive; remove it",
+                  64 * scales.every_periods));
   }
   design.relearn_every_periods = static_cast<std::uint32_t>(std::min(every, 4e9));
 }
@@ -316,7 +318,7 @@ double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& de
   const auto& targets = scene.controller->target_friction_ratio;
   const double first_s =
       targets.size() > 1 ? std::min(targets[1].time_s, scene.run.duration_s) : scene.run.duration_s;
-  const double period_s = design.scales.carrier_period_s;
+  const double period_s = design.scales.step_period_s();
   const double most = std::floor(largest_part * first_s / period_s);
   const double chosen =
       std::min(calibration_periods(scene, plant, design, usual_presliding_travels), most);

@@ -27,6 +27,10 @@ struct ControlScales {
   /// its sensor; in the sensorless mode sensorless_room times as much.
   double velocity_m_per_s;
   double drive_amplitude_N;  ///< the actuator's limit
+  int every_periods = 1;     ///< carrier periods in a step
+
+  /// Of the controller, whose counts of periods, gains and weights are those of its steps.
+  double step_period_s() const { return every_periods * carrier_period_s; }
 };
 
 /// drive.delay_periods at its longest.
@@ -36,7 +40,8 @@ inline constexpr int max_reading_delay = max_drive_delay + 64;
 /// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
 inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_span / 2;
 
-/// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2.
+/// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2. A
+/// "period" in a name here is one of the controller, controller.every_periods carrier periods.
 struct ControlDesign {
   ControlScales scales{};
   scene::FrictionMap map = scene::FrictionMap::dahl;  ///< of the feedforward
@@ -45,15 +50,15 @@ struct ControlDesign {
   double contact_force = 0.0;  ///< nominal Kt times the vibration amplitude at full drive
   double speed_floor = 0.0;
   double lead_periods = 0.0;    ///< from a sample to the middle of its effect
-  double integral_gain = 0.0;   ///< per carrier period
-  double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per carrier period
+  double integral_gain = 0.0;   ///< per period
+  double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per period
   std::uint8_t reference_delay_periods = 1;
   std::uint16_t hold_periods = 0;
   std::uint16_t rest_periods = 0;   ///< between two holds for a changed target
   std::uint16_t stuck_periods = 0;  ///< 0: not supervised
   std::uint16_t implausible_periods = 0;
   std::uint32_t standstill_hold_periods = 0;
-  double standstill_fall = 0.0;  ///< of the amplitude after that, per carrier period
+  double standstill_fall = 0.0;  ///< of the amplitude after that, per period
   double settling_band = 0.0;    ///< as the sensor shows it, on base 2
   std::uint16_t settling_patience_periods = 0;
   /// Commanded over target ratio tells nominal over true friction: the feedforward's map is the
@@ -91,7 +96,7 @@ struct ControlDesign {
   bool relearns = false;
   std::uint32_t relearn_every_periods = 0;
   std::uint16_t relearn_quiet_periods = 0;
-  double relearn_travel = 0.0;  ///< in 64 carrier periods at full drive's peak vibration velocity
+  double relearn_travel = 0.0;  ///< in 64 periods at full drive's peak vibration velocity
   std::uint16_t relearn_reading_periods = 0;
   std::uint16_t relearn_return_periods = 0;
   std::uint8_t relearn_average_periods = 0;
@@ -117,7 +122,7 @@ struct ControlDesign {
     const auto* fed_forward = in_mode<FeedforwardDesign>();
     return fed_forward != nullptr && fed_forward->notch ? &*fed_forward->notch : nullptr;
   }
-  /// Carrier periods from the first tap of the notch to its last.
+  /// Periods from the first tap of the notch to its last.
   int notch_span() const { return notch() != nullptr ? notch()->span() : 0; }
   /// Until a change of the request has become one of the vibration.
   double changing_periods() const {

@@ -10,30 +10,32 @@
 namespace sonoglide::configure {
 namespace {
 
-void add_notch_notes(const NotchDesign& notch, std::vector<std::string>& notes) {
+void add_notch_notes(const NotchDesign& notch, int every_periods, std::vector<std::string>& notes) {
   constexpr int longest_span = 16;  // carrier periods, in which a step is over at Table 1
+  const int span = notch.span() * every_periods;
+  const int spacing = notch.spacing * every_periods;
   if (notch.ripple > robust_ripple) {
     notes.push_back(fmt::format(
         "The robust notch leaves up to {:.2g} % of the ringing of each step where the natural "
         "frequency is off by up to {:.3g} %. A smaller controller.shaping_range leaves less.",
         100.0 * notch.ripple, 100.0 * notch.range));
   }
-  if (notch.span() <= longest_span) {
+  if (span <= longest_span) {
     return;
   }
   if (notch.range > 0.0) {
     notes.push_back(
         fmt::format("The robust notch spans {} carrier periods. Targets, speeds and sensors that "
                     "change faster are not followed.",
-                    notch.span()));
+                    span));
     return;
   }
   notes.push_back(fmt::format(
-      "The natural mode is so near a multiple of the carrier frequency that its notch spans {} "
+      "The natural mode is so near a multiple of {} that its notch spans {} "
       "carrier periods: for {} of them after each change the drive is at {:.0f} % of it, then for "
       "{} at {:.0f} %. Targets, speeds and sensors that change faster are not followed.",
-      notch.span(), notch.spacing, 100.0 * notch.taps[0], notch.spacing,
-      100.0 * (notch.taps[0] + notch.taps[1])));
+      every_periods == 1 ? "the carrier frequency" : "the frequency of the controller's steps",
+      span, spacing, 100.0 * notch.taps[0], spacing, 100.0 * (notch.taps[0] + notch.taps[1])));
 }
 
 /// How far the stiffness may be off, where that is less than usual and not in another note.
@@ -82,13 +84,15 @@ std::string left_text(const FeedforwardDesign& mode) {
 }
 
 /// What keeps the mode quiet where the amplitude passes linearly, and what is left.
-void add_ramp_note(const FeedforwardDesign& mode, std::vector<std::string>& notes) {
-  if (!mode.ramped || mode.quieting == Quieting::nothing) {
+void add_ramp_note(const FeedforwardDesign& mode, int every_periods,
+                   std::vector<std::string>& notes) {
+  if (!mode.ramped() || mode.quieting == Quieting::nothing) {
     return;
   }
-  const std::string notch = mode.notch ? fmt::format("a notch of {} taps over {} carrier periods",
-                                                     mode.notch->tap_count, mode.notch->span())
-                                       : std::string();
+  const std::string notch =
+      mode.notch ? fmt::format("a notch of {} taps over {} carrier periods", mode.notch->tap_count,
+                               mode.notch->span() * every_periods)
+                 : std::string();
   if (mode.quieting == Quieting::notch) {
     notes.push_back(fmt::format(
         "The natural mode is kept quiet by {}. {} Here a linear change of the amplitude leaves more "
@@ -102,12 +106,13 @@ void add_ramp_note(const FeedforwardDesign& mode, std::vector<std::string>& note
 
 void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
                std::vector<std::string>& notes) {
-  add_ramp_note(mode, notes);
+  const int every_periods = design.scales.every_periods;
+  add_ramp_note(mode, every_periods, notes);
   if (mode.free_mode) {
     notes.push_back(
         fmt::format("The natural mode has no notch: each change of the drive makes it ring. The "
-                    "feedback gain is {:.3g} per carrier period.",
-                    design.integral_gain));
+                    "feedback gain is {:.3g} per {}.",
+                    design.integral_gain, every_periods == 1 ? "carrier period" : "step"));
   }
   if (mode.free_mode && mode.shaping_range > 0.0) {
     notes.push_back(
@@ -123,14 +128,14 @@ void add_notes(const FeedforwardDesign& mode, const ControlDesign& design,
         100.0 * robust_ripple));
   }
   if (mode.notch) {
-    add_notch_notes(*mode.notch, notes);
+    add_notch_notes(*mode.notch, every_periods, notes);
   }
   if (mode.missing_damping_N_s_per_m > 0.0) {
     constexpr double never_rounded_down = 1.005;  // to three digits
     notes.push_back(fmt::format(
         "The natural mode hardly decays. Feedback may then amplify the ringing that is left by the {}, "
         "over thousands of carrier periods, even if the stiffness is known exactly. A plant.damping_N_s_per_m of {:.3g} or more prevents it.",
-        mode.ramped ? mode.notch ? "ramp and the notch" : "ramp" : "robust notch",
+        mode.ramped() ? mode.notch ? "ramp and the notch" : "ramp" : "robust notch",
         never_rounded_down * mode.missing_damping_N_s_per_m));
   }
 }
@@ -202,7 +207,8 @@ void add_tracking_note(const ControlDesign& design, std::vector<std::string>& no
         "The contact slides too slowly through its presliding travel: after the {} carrier periods "
         "that a reading of the tracked friction waits, half of the shortest target's time, up to "
         "{:.2g} % of a change is left.",
-        design.tracking_wait_periods, 100.0 * design.tracking_unsettled));
+        design.tracking_wait_periods * design.scales.every_periods,
+        100.0 * design.tracking_unsettled));
   }
 }
 
@@ -210,6 +216,12 @@ void add_tracking_note(const ControlDesign& design, std::vector<std::string>& no
 
 std::vector<std::string> design_notes(const ControlDesign& design) {
   std::vector<std::string> notes;
+  if (design.scales.every_periods > 1) {
+    notes.push_back(fmt::format(
+        "The controller steps once in {} carrier periods. It sees the last of them, and changes the "
+        "drive once.",
+        design.scales.every_periods));
+  }
   std::visit([&](const auto& mode) { add_notes(mode, design, notes); }, design.vibration);
   if (design.bias) {
     notes.push_back(fmt::format(

@@ -1,4 +1,4 @@
-/// What a controller's design waits for, in carrier periods.
+/// What a controller's design waits for, in its periods.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace sonoglide::configure {
 
-/// Time constant of the sensor's low-pass, in carrier periods.
+/// Time constant of the sensor's low-pass.
 inline double filter_periods(const scene::Scene& scene, const ControlScales& scales) {
   const std::optional<double> low_pass_Hz = scene.sensor.low_pass_Hz();
-  return low_pass_Hz ? 1.0 / (numeric::two_pi * *low_pass_Hz * scales.carrier_period_s) : 0.0;
+  return low_pass_Hz ? 1.0 / (numeric::two_pi * *low_pass_Hz * scales.step_period_s()) : 0.0;
 }
 
 inline std::uint16_t whole_periods(double periods) {
@@ -23,9 +23,18 @@ inline std::uint16_t whole_periods(double periods) {
   return static_cast<std::uint16_t>(std::min(most, std::ceil(periods)));
 }
 
-/// From a request to the reading of the period that it acts in.
+/// From a request to the reading of the carrier period that it acts in. A reading is that of the last
+/// carrier period of a step.
 inline double latency_periods(const scene::Scene& scene) {
-  return 1.0 + scene.drive->delay_periods + scene.sensor.delay_periods;
+  const int carriers = 1 + scene.drive->delay_periods + scene.sensor.delay_periods;
+  const int every = scene.controller->every_periods;
+  return (carriers + every - 1) / every;
+}
+
+/// Until the contact has forgotten.
+inline double contact_settling_periods(const scene::Scene& scene) {
+  constexpr double carriers = 2.0;
+  return carriers / scene.controller->every_periods;
 }
 
 }  // namespace sonoglide::configure

@@ -33,13 +33,13 @@ double gain_beside_free_mode(const scene::Scene& scene, const NaturalMode& mode)
 }
 
 /// Feedback drives what a notch or a ramp leaves of the free mode, to grow or to decay as the delays
-/// of the loop have it, and at a rate below a part of gain times ripple per carrier period. Behind a
+/// of the loop have it, and at a rate below a part of gain times ripple per period. Behind a
 /// notch an eighth was seen, at Table 1 and the worst of several delays; under a ramp alone up to 0.6,
 /// with a mode at 2.06 carriers.
 double missing_damping_N_s_per_m(double ripple, bool ramp_alone, const NaturalMode& mode,
                                  double mass_kg, const ControlDesign& design) {
   const double growth = (ramp_alone ? 0.625 : 0.25) * design.integral_gain * ripple;
-  return growth > 1.0 - mode.decay ? 2.0 * mass_kg * growth / design.scales.carrier_period_s : 0.0;
+  return growth > 1.0 - mode.decay ? 2.0 * mass_kg * growth / design.scales.step_period_s() : 0.0;
 }
 
 /// An integrator behind a delay of D periods oscillates at a gain of 2 sin(π/(4D+2)); a third of it
@@ -49,10 +49,10 @@ double gain_behind_delay(double periods) {
 }
 
 /// How long the integral waits for a changed target, and then does not.
-void set_waiting(double delay, double filter, ControlDesign& design) {
-  constexpr double contact_settling = 2.0;  // carrier periods until the contact has forgotten
-  constexpr double filter_settling = 4.0;   // time constants more: 0.7 % of a step is left
-  constexpr double rest_per_hold = 1.25;    // in which feedback acts
+void set_waiting(const scene::Scene& scene, double delay, double filter, ControlDesign& design) {
+  constexpr double filter_settling = 4.0;  // time constants more: 0.7 % of a step is left
+  constexpr double rest_per_hold = 1.25;   // in which feedback acts
+  const double contact_settling = contact_settling_periods(scene);
   design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
 }
@@ -89,7 +89,7 @@ void design_named_notch(const scene::Scene& scene, const NaturalMode& mode,
 
 FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPlant& plant,
                                      ControlDesign& design) {
-  const NaturalMode mode = natural_mode(plant, design.scales.carrier_period_s);
+  const NaturalMode mode = natural_mode(plant, design.scales.step_period_s());
   FeedforwardDesign found = scene.drive->interpolation == scene::Interpolation::linear
                                 ? design_ramped(scene, plant, design)
                                 : design_stepped(scene, mode);
@@ -106,12 +106,13 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
       found.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
   const double ripple = found.notch ? found.notch->ripple : 0.0;
   found.missing_damping_N_s_per_m =
-      missing_damping_N_s_per_m(found.ramped && quiet ? found.left : ripple,
+      missing_damping_N_s_per_m(found.ramped() && quiet ? found.left : ripple,
                                 !found.notch.has_value(), mode, plant.mass_kg, design);
-  set_waiting(delay, filter, design);
+  set_waiting(scene, delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * shaping);
   design.reference_keep = filter / (1.0 + filter);
-  design.lead_periods = 0.5 + 0.5 * shaping + scene.drive->delay_periods;
+  const double drive_delay = scene.drive->delay_periods;
+  design.lead_periods = 0.5 + 0.5 * shaping + drive_delay / design.scales.every_periods;
   return found;
 }
 
@@ -120,7 +121,7 @@ void design_outer_regulator(const scene::Scene& scene, double following_periods,
   const double filter = filter_periods(scene, design.scales);
   const double latency = latency_periods(scene);
   design.integral_gain = gain_behind_delay(latency + following_periods + filter);
-  set_waiting(latency + following_periods, filter, design);
+  set_waiting(scene, latency + following_periods, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency);
   design.reference_keep = (filter + 1.0) / (filter + 2.0);
   design.lead_periods = 1.5 + scene.drive->delay_periods;
@@ -137,6 +138,7 @@ void design_slew(const scene::Drive& drive, ControlDesign& design) {
       gain += std::abs(tap);
     }
   }
+  // The amplitude of a step passes in one carrier period.
   const double per_period = *drive.max_force_slew_N_per_s * design.scales.carrier_period_s /
                             design.scales.drive_amplitude_N;
   design.slew_limited = per_period < gain;

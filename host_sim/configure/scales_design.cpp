@@ -200,6 +200,7 @@ double set_scales(const scene::Scene& scene, const NominalPlant& plant, ControlD
 
 void design_scales(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
   const double displacement_m = set_scales(scene, plant, design);
+  design.scales.every_periods = scene.controller->every_periods;
   design.friction_force = per_unit(
       plant.friction_N, design.scales.force_N, smallest_friction, "sensor.force_full_scale_N",
       fmt::format("is {:.4g} N, of which the nominal friction force "

@@ -34,10 +34,10 @@ void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
   const double pause = design.relearns ? 2.0 * design.changing_periods() : 0.0;
   design.implausible_periods = whole_periods(design.hold_periods + implausible_margin + pause);
 
-  constexpr double fall_periods = 128.0;
+  constexpr double fall_carriers = 128.0;
   design.standstill_hold_periods = static_cast<std::uint32_t>(std::min(
-      4e9, std::round(scene.controller->standstill_hold_s / design.scales.carrier_period_s)));
-  design.standstill_fall = 1.0 / fall_periods;
+      4e9, std::round(scene.controller->standstill_hold_s / design.scales.step_period_s())));
+  design.standstill_fall = design.scales.every_periods / fall_carriers;
 
   constexpr double noise_deviations = 4.0;
   constexpr double widest_band = 0.5;

@@ -50,11 +50,21 @@ const std::vector<EmulatedBoard>& emulated_boards() {
   return boards;
 }
 
+const std::vector<EmulatedBoard>& carrier_boards() {
+  static const std::vector<EmulatedBoard> boards = {
+      {"pico", "Cortex-M0+", "arm-cortex-m0plus", "node", {}, 1.0, false, "_scene"}};
+  return boards;
+}
+
 const EmulatedBoard* find_board(std::string_view name) {
-  const auto& boards = emulated_boards();
-  const auto found = std::find_if(boards.begin(), boards.end(),
-                                  [&](const EmulatedBoard& board) { return board.name == name; });
-  return found == boards.end() ? nullptr : &*found;
+  for (const auto* boards : {&emulated_boards(), &carrier_boards()}) {
+    const auto found = std::find_if(boards->begin(), boards->end(),
+                                    [&](const EmulatedBoard& board) { return board.name == name; });
+    if (found != boards->end()) {
+      return &*found;
+    }
+  }
+  return nullptr;
 }
 
 std::vector<std::string> emulator_command(const EmulatedBoard& board, const std::string& image) {

@@ -15,15 +15,22 @@ struct EmulatedBoard {
   std::vector<std::string_view> machine_arguments;  ///< what makes the emulator this board
   double counts_per_instruction;  ///< unit of a drive frame's count, under emulator_command()
   bool computes_double = false;   ///< its floating-point unit does, so that float64 can be built
+  std::string_view image_suffix =
+      {};  ///< of an image's name, behind that of its controller's folder
 };
 
-/// Every board, from the smallest core to the largest, the other instruction set last.
+/// Every board in lockstep over semihosting, from the smallest core to the largest, the other instruction
+/// set last.
 const std::vector<EmulatedBoard>& emulated_boards();
 
-/// @return the board of that name, or null
+/// Boards whose image makes the carrier itself, and reads the converters and drives the bridge of its emulator,
+/// a program for node. Their counts are clocks.
+const std::vector<EmulatedBoard>& carrier_boards();
+
+/// @return the board of that name among both, or null
 const EmulatedBoard* find_board(std::string_view name);
 
-/// The command that runs an image in lockstep: semihosting joined to the emulator's standard input
+/// The command that runs an image of emulated_boards() in lockstep: semihosting joined to the emulator's standard input
 /// and output, no window, no device that the board does not have. The emulator's time passes with
 /// the instructions: the same run counts the same.
 std::vector<std::string> emulator_command(const EmulatedBoard& board, const std::string& image);

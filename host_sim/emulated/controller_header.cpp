@@ -151,14 +151,13 @@ std::string parameter_lines(const configure::ControlDesign& design,
 }
 
 /// @throws configure::ConfigurationError  an image cannot count so far
-void require_reach(const loop::ScheduledTarget& step, const loop::CarrierGrid& grid) {
-  constexpr std::uint64_t most_periods = 0xffffffff;
-  if (step.place > most_periods) {
+void require_reach(const loop::ScheduledTarget& step, double step_period_s) {
+  constexpr std::uint64_t most_steps = 0xffffffff;
+  if (step.place > most_steps) {
     throw configure::ConfigurationError(
         "controller.target_friction_ratio",
         fmt::format("a step at {:g} s is out of an image's reach; allowed: at most {} s",
-                    step.time_s,
-                    scene::at_most(static_cast<double>(most_periods) * grid.period_s())));
+                    step.time_s, scene::at_most(static_cast<double>(most_steps) * step_period_s)));
   }
 }
 
@@ -168,7 +167,7 @@ std::string target_steps(const scene::Scene& scene, const configure::ResonantDes
   std::string text;
   for (const loop::ScheduledTarget& step : loop::target_schedule(scene, grid)) {
     if (resonance == nullptr) {
-      require_reach(step, grid);
+      require_reach(step, scene.controller->every_periods * grid.period_s());
     }
     text +=
         fmt::format("    {{{}, {}}},  // {}\n", step.place,
@@ -231,7 +230,7 @@ std::uint32_t design_number(const std::string& types, const std::vector<ChosenPa
   for (const ChosenPart& part : parts) {
     text += fmt::format("    {},  // {}\n", part.parameters, part.text.type);
   }
-  text += fmt::format("{} {} {} {}", scales.carrier_period_s, scales.force_N,
+  text += fmt::format("{} {} {} {}", scales.step_period_s(), scales.force_N,
                       scales.velocity_m_per_s, scales.drive_amplitude_N);
   return encoding::crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
@@ -258,8 +257,16 @@ inline constexpr control::Controller<Parts>::Parameters parameters{{
 {}}};
 
 {}
-/// Of the drive{}; a step answers each.
+/// Of the drive{}.
 inline constexpr double carrier_period_s = {:a};
+
+/// Of the controller: as many carrier periods.
+inline constexpr unsigned every_periods = {};
+inline constexpr double step_period_s = every_periods * carrier_period_s;
+
+/// Of the board: drive.delay_periods, and whether drive.interpolation is "linear".
+inline constexpr int delay_periods = {};
+inline constexpr bool interpolates = {};
 
 /// Of the controller and its units; FieldDesign keeps stored parameters to it.
 inline constexpr std::uint32_t design = {:#010x};
@@ -270,7 +277,8 @@ inline constexpr std::uint32_t design = {:#010x};
       ScalarName<Scalar>::type, types,
       design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
                           : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
-      targets.lines, targets.drive, design.scales.carrier_period_s,
+      targets.lines, targets.drive, design.scales.carrier_period_s, design.scales.every_periods,
+      scene.drive->delay_periods, scene.drive->interpolation == scene::Interpolation::linear,
       design_number(types, parts, design.scales));
 }
 

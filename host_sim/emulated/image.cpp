@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -151,6 +152,10 @@ fs::path find_image(const fs::path& cache, const std::string& key) {
   return found;
 }
 
+std::string image_name(const emulated::EmulatedBoard& board) {
+  return fmt::format("{}{}", controller_name, board.image_suffix);
+}
+
 void compile(const emulated::EmulatedBoard& board, const std::string& header, const fs::path& tree,
              const fs::path& folder) {
   const fs::path controller = folder / controller_name;
@@ -162,7 +167,26 @@ void compile(const emulated::EmulatedBoard& board, const std::string& header, co
                      "-DCMAKE_TOOLCHAIN_FILE=" + toolchain.string(),
                      fmt::format("-DSONOGLIDE_BOARD={}", board.name),
                      "-DSONOGLIDE_CONTROLLERS=" + controller.string()});
-  process::run_tool({"cmake", "--build", build, "--target", controller_name});
+  process::run_tool({"cmake", "--build", build, "--target", image_name(board)});
+}
+
+/// Where node finds rp2040js: in NODE_PATH, or where tools/setup puts it.
+fs::path npm_folder() {
+  std::vector<fs::path> folders{source_tree() / "build/npm/node_modules"};
+  const char* named = environment("NODE_PATH");
+  std::istringstream list(named != nullptr ? named : "");
+  for (std::string folder; std::getline(list, folder, ':');) {
+    folders.emplace_back(fs::absolute(folder));
+  }
+  const auto found = std::find_if(folders.begin(), folders.end(), [](const fs::path& folder) {
+    return fs::exists(folder / "rp2040js");
+  });
+  if (found == folders.end()) {
+    throw process::ProcessError(
+        "rp2040js: the npm package that emulates a Pico is not installed; allowed: "
+        "npm install rp2040js@1.4.1, and NODE_PATH=FOLDER/node_modules in the environment");
+  }
+  return *found;
 }
 
 }  // namespace
@@ -182,7 +206,7 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
   if (image.empty()) {
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
     compile(board, header, tree, folder.path());
-    const fs::path built = folder.path() / "build/bin" / fmt::format("{}.elf", controller_name);
+    const fs::path built = folder.path() / "build/bin" / (image_name(board) + ".elf");
     // Somebody else may have done the same meanwhile, and may do so now: either image serves.
     image = find_image(cache, key);
     if (image.empty()) {
@@ -196,6 +220,14 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
        error.code().message() +
            "; allowed: XDG_CACHE_HOME or HOME in the environment, a folder that can be written to, "
            "where no other files have the names of images");
+}
+
+std::vector<std::string> run_command(const emulated::EmulatedBoard& board, const fs::path& image) {
+  if (board.emulator != "node") {
+    return emulator_command(board, image.string());
+  }
+  const fs::path program = source_tree() / fmt::format("hal/{}/emulated/lockstep.cjs", board.name);
+  return {"env", "NODE_PATH=" + npm_folder().string(), "node", program.string(), image.string()};
 }
 
 // What it takes of the board.
@@ -257,10 +289,16 @@ ImageCost measure_image(const std::filesystem::path& image, const emulated::Emul
   const std::string disassembly =
       process::run_tool({cross_tools(board).prefix + "objdump", "--disassemble", image.string()});
   ImageCost cost{image_size(elf), stack_bound(disassembly, "reset")};
-  const StackBound exception = stack_bound(disassembly, "take_exception");
-  cost.stack.bytes += exception_frame_bytes(elf) + exception.bytes;
-  if (cost.stack.unbounded_by.empty()) {
-    cost.stack.unbounded_by = exception.unbounded_by;
+  std::vector<std::string> handlers{"take_exception"};
+  if (!board.image_suffix.empty()) {
+    handlers.emplace_back("take_carrier");
+  }
+  for (const std::string& handler : handlers) {
+    const StackBound exception = stack_bound(disassembly, handler);
+    cost.stack.bytes += exception_frame_bytes(elf) + exception.bytes;
+    if (cost.stack.unbounded_by.empty()) {
+      cost.stack.unbounded_by = exception.unbounded_by;
+    }
   }
   return cost;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/pipe.hpp"
@@ -65,5 +66,10 @@ ImageCost measure_image(const std::filesystem::path& image, const emulated::Emul
 ///         that CMake takes, or the build failed; what() says what to install, or has the build's
 ///         own words
 std::filesystem::path build_image(const emulated::EmulatedBoard& board, const std::string& header);
+
+/// The command that runs such an image, in lockstep over standard input and output.
+/// @throws process::ProcessError  node lacks the package that emulates the board
+std::vector<std::string> run_command(const emulated::EmulatedBoard& board,
+                                     const std::filesystem::path& image);
 
 }  // namespace sonoglide::emulated

@@ -31,7 +31,7 @@ loop::InstructionRange InstructionCount::over(std::uint64_t periods) const {
 }
 
 ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image)
-    : board_(board), image_(emulated::emulator_command(board, image.string()), longest_silence) {}
+    : board_(board), image_(emulated::run_command(board, image), longest_silence) {}
 
 void ImageControl::set_target(double /*friction_ratio*/) {}
 

@@ -26,6 +26,12 @@ void Actuator::take(const hal::Drive& drive, double target, std::int32_t frequen
   first_ = first_ + 1 == queue_.size() ? 0 : first_ + 1;
 }
 
+void Actuator::hold() {
+  const std::size_t size = queue_.size();
+  queue_[first_] = queue_[(first_ + size - 1) % size];
+  first_ = first_ + 1 == size ? 0 : first_ + 1;
+}
+
 void Actuator::save(SnapshotWriter& state) const {
   for (const Command& command : queue_) {
     state.put(command);

@@ -39,6 +39,9 @@ class Actuator {
   }
   void take(const hal::BiasedDrive& drive, double target) { take(drive, target, 0, drive.bias); }
 
+  /// The answer that was taken last holds for another carrier period.
+  void hold();
+
   /// In force during the next carrier period; off until the first answer acts.
   const Command& in_force() const { return queue_[first_]; }
 

@@ -27,9 +27,11 @@ std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const Ca
   for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
     // The sample of a period is taken at its end.
     const std::uint64_t period = std::max<std::uint64_t>(1, grid.at_or_after(step.time_s)) - 1;
+    const std::uint64_t place =
+        period / static_cast<std::uint64_t>(scene.controller->every_periods);
     const double elapsed =
         std::ldexp(step.time_s / grid.period_s(), app::ElapsedPeriods::fraction_bits);
-    schedule.push_back({scene.resonant() ? static_cast<std::uint64_t>(std::round(elapsed)) : period,
+    schedule.push_back({scene.resonant() ? static_cast<std::uint64_t>(std::round(elapsed)) : place,
                         step.time_s, step.friction_ratio});
   }
   return schedule;
@@ -43,6 +45,7 @@ ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, Contr
       observes_vibration_(scene.sensor.vibration),
       sensor_(scene.sensor, record.design.scales, vibration_gain(scene, record.design)),
       actuator_(scene),
+      every_periods_(scene.controller->every_periods),
       start_frequency_Hz_(scene.drive->frequency_Hz),
       clock_ratio_(scene.drive->frequency_Hz / record.design.carrier_Hz),
       nominal_friction_N_(record.design.friction_force * record.design.scales.force_N),
@@ -76,6 +79,12 @@ void ControlRun::label(Period& period) const {
 
 void ControlRun::step(double time_s, const PeriodForce& force, double sliding_velocity_m_per_s,
                       std::complex<double> vibration_m_per_s, double mean_velocity_m_per_s) {
+  if (++periods_ < every_periods_) {
+    sensor_.pass(force);
+    actuator_.hold();
+    return;
+  }
+  periods_ = 0;
   follow_target();
   learn(force.mean_N);
   const bool biased = answers_with_bias();
@@ -109,7 +118,8 @@ void ControlRun::save(SnapshotWriter& state) const {
   state.put(hash_);
   state.put(answer_);
   state.put(next_step_);
-  state.put(period_);
+  state.put(periods_);
+  state.put(step_);
   state.put(nominal_friction_N_);
   state.put(elapsed_);
   state.put(target_);
@@ -125,7 +135,8 @@ void ControlRun::restore(SnapshotReader& state) {
   state.get(hash_);
   state.get(answer_);
   state.get(next_step_);
-  state.get(period_);
+  state.get(periods_);
+  state.get(step_);
   state.get(nominal_friction_N_);
   state.get(elapsed_);
   state.get(target_);
@@ -163,12 +174,12 @@ void ControlRun::follow_target() {
   if (elapsed_) {
     elapsed_->add(actuator_.in_force().frequency);
   }
-  const std::uint64_t now = elapsed_ ? elapsed_->value() : period_;
+  const std::uint64_t now = elapsed_ ? elapsed_->value() : step_;
   for (; next_step_ < schedule_.size() && schedule_[next_step_].place <= now; ++next_step_) {
     target_ = schedule_[next_step_].friction_ratio;
     port_.set_target(target_);
   }
-  ++period_;
+  ++step_;
 }
 
 template <class Drive>

@@ -24,7 +24,7 @@ namespace sonoglide::loop {
 
 /// A target step on the grid of the samples.
 struct ScheduledTarget {
-  /// In force from the sample of this carrier period on, counted from 0; of a resonant loop from the
+  /// In force from this step of the controller on, counted from 0; of a resonant loop from the
   /// first sample at this time or after, as app::ElapsedPeriods counts it.
   std::uint64_t place;
   double time_s;  ///< as the scene has it
@@ -52,7 +52,7 @@ class ControlRun {
   /// Notes in the period that has just passed what drove it.
   void label(Period& period) const;
 
-  /// One control step, at the end of a carrier period.
+  /// The end of a carrier period; a control step, if it is the last of controller.every_periods.
   /// @param vibration_m_per_s      of the period, see Sensor; of use to a loop that observes it
   /// @param mean_velocity_m_per_s  likewise, of the vibration; of use to one that answers with a bias
   void step(double time_s, const PeriodForce& force, double sliding_velocity_m_per_s,
@@ -91,7 +91,9 @@ class ControlRun {
   hal::TraceHash hash_;
   hal::Drive answer_{};
   std::size_t next_step_ = 0;
-  std::uint64_t period_ = 0;  ///< whose sample comes next
+  int every_periods_;
+  int periods_ = 0;         ///< since the last step
+  std::uint64_t step_ = 0;  ///< that comes next
   double start_frequency_Hz_;
   double clock_ratio_;                          ///< true frequency of the drive over the commanded
   double nominal_friction_N_;                   ///< as the controller learns it, but for noise

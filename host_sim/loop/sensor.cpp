@@ -59,16 +59,26 @@ hal::Sample Sensor::sample(const PeriodForce& force, double sliding_velocity_m_p
   return {reading.code, velocity.code, reading.at_rail, true, velocity.at_rail};
 }
 
-Conversion Sensor::reading(const PeriodForce& force) {
+void Sensor::pass(const PeriodForce& force) {
+  for_each_conversion(force, [&](double force_N) { delayed(force_N); });
+}
+
+template <class Take>
+void Sensor::for_each_conversion(const PeriodForce& force, const Take& take) {
   const double mean_N = force.samples_N.empty() ? filtered(force.mean_N) : 0.0;
+  for (int i = 0; i < conversions_; ++i) {
+    take(force.samples_N.empty() ? mean_N : force.samples_N[static_cast<std::size_t>(i)]);
+  }
+}
+
+Conversion Sensor::reading(const PeriodForce& force) {
   std::int64_t sum = 0;
   bool at_rail = false;
-  for (int i = 0; i < conversions_; ++i) {
-    const Conversion one =
-        converted(force.samples_N.empty() ? mean_N : force.samples_N[static_cast<std::size_t>(i)]);
+  for_each_conversion(force, [&](double force_N) {
+    const Conversion one = converted(force_N);
     sum += one.code;
     at_rail = at_rail || one.at_rail;
-  }
+  });
   return {static_cast<std::int32_t>(floored(static_cast<double>(sum) / conversions_ + 0.5)),
           at_rail};
 }

@@ -55,6 +55,9 @@ class Sensor {
 
   hal::Sample sample(const PeriodForce& force, double sliding_velocity_m_per_s);
 
+  /// A carrier period that nobody looks at.
+  void pass(const PeriodForce& force);
+
   /// The same with the vibration.
   /// @param vibration_m_per_s  z of the period: the vibration velocity is Re(z e^jθ), θ the phase of
   ///                           the drive
@@ -73,6 +76,9 @@ class Sensor {
   Conversion seen(double velocity_m_per_s);
   Conversion converted(double force_N);
   Conversion reading(const PeriodForce& force);
+  /// @param take  is called with the force of each conversion, behind the low-pass
+  template <class Take>
+  void for_each_conversion(const PeriodForce& force, const Take& take);
   double filtered(double force_N);
   double delayed(double force_N);
   double noise(double rms);

@@ -227,8 +227,9 @@ void add_unit(py::module_& module) {
       py::arg("velocity_at_rail") = false,
       "step(self, force_code, velocity_code, in_phase_code=None, quadrature_code=None, *, "
       "fresh=True, force_at_rail=False, velocity_at_rail=False)\n--\n\n"
-      "One carrier period. -> amplitude code of the drive, 2**31 being the actuator's limit\n\n"
-      "force_code       mean friction force of the period, over force_full_scale_N\n"
+      "One control step, the last carrier period of controller.every_periods. -> amplitude code of\n"
+      "the drive, 2**31 being the actuator's limit\n\n"
+      "force_code       mean friction force of the carrier period, over force_full_scale_N\n"
       "velocity_code    sliding velocity, over velocity_full_scale_m_per_s\n"
       "in_phase_code, quadrature_code\n"
       "                 vibration velocity, over velocity_full_scale_m_per_s; of a unit that\n"

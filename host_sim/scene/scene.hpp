@@ -218,6 +218,7 @@ enum class FrictionSource { trusted, calibrated, tracked };
 
 struct Controller {
   Arithmetic arithmetic = Arithmetic::float64;
+  int every_periods = 1;                             ///< carrier periods in a step
   std::optional<VibrationControl> vibration;         ///< absent: fed forward, without observing it
   std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
   std::vector<TargetStep> target_friction_ratio;

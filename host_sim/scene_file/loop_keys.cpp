@@ -150,6 +150,11 @@ std::vector<Key> controller_keys() {
       {"target_friction_ratio", of_controller<&Controller::target_friction_ratio>,
        Profile{time_range, {0.0, 1.0, "", true}}, Required{},
        "target friction ratio, constant from each time to the next; the first time is 0"},
+      {"every_periods", of_controller<&Controller::every_periods>, Integer{1, 16, "periods"},
+       static_cast<double>(controller.every_periods),
+       "carrier periods in a step of the controller, for a processor that is too slow for one in each: it "
+       "sees the last of them and changes the drive once",
+       uses::no_observed_vibration},
       {"friction",
        choice<scene::friction_sources, &scene::Scene::controller, &Controller::friction>(),
        Word{words_of(scene::friction_sources)},

@@ -206,7 +206,7 @@ std::vector<Key> drive_keys() {
            uses::resonance(uses::not_at_resonance)},
       {"max_force_slew_N_per_s", of_drive<&Drive::max_force_slew_N_per_s>,
        Number{{1e-12, 1e21, "N/s"}}, Rule{"no limit"},
-       "limit of the actuator: fastest change of the amplitude",
+       "limit of the actuator: fastest change of the amplitude from one carrier period to the next",
        closed_loop + uses::in_newtons + uses::no_damped_vibration},
       {"delay_periods", of_drive<&Drive::delay_periods>, Integer{0, 16, "periods"},
        static_cast<double>(drive.delay_periods),

@@ -11,6 +11,7 @@
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/encoding/decimal.hpp"
 #include "hal/no_watchdog.hpp"
+#include "hal/timed/board.hpp"
 #include "hal/timed/drive_register.hpp"
 
 namespace {
@@ -20,9 +21,10 @@ namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 namespace encoding = sonoglide::encoding;
 
-constexpr double period_ticks =
-    Hardware::carriers_per_period * configuration::carrier_period_s * Hardware::Board::clock_hz +
-    0.5;
+constexpr double period_ticks = sonoglide::hal::timed::loop_period_s<Hardware>(
+                                    configuration::carrier_period_s, configuration::every_periods) *
+                                    Hardware::Board::clock_hz +
+                                0.5;
 constexpr int settled = 300;  // carrier periods
 
 void send(Hardware::ByteLink& bytes, char character) {

@@ -26,7 +26,7 @@ namespace hal = sonoglide::hal;
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
                                                         configuration::target_steps[0].half_ratio,
                                                         configuration::design,
-                                                        configuration::carrier_period_s, 0);
+                                                        configuration::step_period_s, 0);
 using Design = app::FieldDesign<configuration::Parts>;
 using Supervised = app::CommandedSupervisor<Design::Controller, Design::Designed>;
 

@@ -138,7 +138,7 @@ void expect_unit_and_run_agree(const std::string& name, const FieldDesign<Parts>
 #define SONOGLIDE_TEST_OF_UNIT(name)                                                            \
   constexpr FieldDesign<scene_##name::Parts> name(                                              \
       scene_##name::parameters, scene_##name::target_steps[0].half_ratio, scene_##name::design, \
-      scene_##name::carrier_period_s, 0);                                                       \
+      scene_##name::step_period_s, 0);                                                          \
   TEST(UnitOfScene, name) {                                                                     \
     expect_unit_and_run_agree(#name, name);                                                     \
   }

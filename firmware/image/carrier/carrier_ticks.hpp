@@ -10,10 +10,19 @@ namespace sonoglide::image {
 
 /// Clocks in a carrier period.
 ///
-/// @tparam Parts  of the controller
-/// @tparam Board  offers period_ticks(period_s), 0 where it cannot make the period
-template <class Parts, class Board>
+/// @tparam Parts          of the controller
+/// @tparam Board          offers period_ticks(period_s), 0 where it cannot make the period
+/// @tparam every_periods  as the written header has it, and the next two
+template <class Parts, class Board, unsigned every_periods, int delay_periods, bool interpolates>
 struct CarrierTicks {
+  static_assert(every_periods == 1,
+                "this board steps in each carrier period: leave out controller.every_periods");
+  static_assert(delay_periods == 1,
+                "this board answers in the carrier period after the sampled one: set "
+                "drive.delay_periods to 1");
+  static_assert(!interpolates,
+                "this board holds the amplitude over a carrier period: leave out "
+                "drive.interpolation");
   using Scalar = typename Parts::Scalar;
   static_assert(
       !std::is_floating_point_v<Scalar>,

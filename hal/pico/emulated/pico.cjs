@@ -184,10 +184,11 @@ class Pico {
     }
   }
 
-  word(symbol, index = 0) {
-    const address = this.image.symbols.get(symbol);
-    return this.mcu.readUint32(address + 4 * index);
-  }
+  word(symbol, index = 0) { return this.mcu.readUint32(this.address(symbol, index)); }
+
+  setWord(symbol, index, value) { this.mcu.writeUint32(this.address(symbol, index), value >>> 0); }
+
+  address(symbol, index) { return this.image.symbols.get(symbol) + 4 * index; }
 }
 
 module.exports = {Pico, checksum};

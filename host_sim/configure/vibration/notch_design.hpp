@@ -12,14 +12,14 @@
 
 namespace sonoglide::configure {
 
-/// From the first tap of a designed notch to its last, in carrier periods.
+/// From the first tap of a designed notch to its last, in periods of the controller.
 inline constexpr int max_notch_span = 64;
 /// From tap to tap: of three taps, and of five.
 inline constexpr int max_notch_spacing = max_notch_span / 2;
 inline constexpr int max_robust_spacing = max_notch_span / 4;
 inline constexpr std::size_t max_notch_taps = 5;
 
-/// The free motion of the plant over one carrier period T, −σ ± iωd its natural mode.
+/// The free motion of the plant over a period T, −σ ± iωd its natural mode.
 struct NaturalMode {
   double decay;     ///< exp(−σT)
   double rotation;  ///< ωd T; 0 where overdamped
@@ -32,7 +32,7 @@ using NotchTaps = std::array<double, max_notch_taps>;
 struct NotchDesign {
   NotchTaps taps{};  ///< 0 from tap_count on
   std::size_t tap_count = 0;
-  std::uint8_t spacing = 0;  ///< carrier periods from one tap to the next
+  std::uint8_t spacing = 0;  ///< periods of the controller from one tap to the next
   double range = 0.0;   ///< by which the natural frequency may be off, relative; 0: known exactly
   double ripple = 0.0;  ///< the largest within that range, see notch_ripple()
 
@@ -50,7 +50,8 @@ enum class Quieting {
 struct FeedforwardDesign {
   std::optional<NotchDesign> notch;
   Quieting quieting = Quieting::nothing;
-  bool ramped = false;  ///< the amplitude passes linearly over a carrier period
+  /// Of the controller, one carrier period, over which the amplitude passes linearly; 0: at once.
+  double ramp_periods = 0.0;
   /// How far the natural frequency may be off, relative, of a ramped drive: by the tolerances of
   /// stiffness and mass, or else 0.01.
   double frequency_range = 0.0;
@@ -65,7 +66,8 @@ struct FeedforwardDesign {
   /// With which feedback cannot build up what the notch leaves; 0: the mode has as much.
   double missing_damping_N_s_per_m = 0.0;
 
-  double changing_periods() const { return (notch ? notch->span() : 0) + (ramped ? 1.0 : 0.0); }
+  bool ramped() const { return ramp_periods > 0.0; }
+  double changing_periods() const { return (notch ? notch->span() : 0) + ramp_periods; }
   static constexpr double building_up_periods() { return 0.0; }
   static constexpr bool tells_mismatch() { return true; }
 };

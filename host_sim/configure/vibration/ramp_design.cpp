@@ -35,14 +35,18 @@ double largest_swing(const scene::Scene& scene, const NominalPlant& plant,
 /// A mode under a drive, ramped or not.
 class DrivenMode {
  public:
-  DrivenMode(const scene::Scene& scene, const NominalPlant& plant, double period_s)
-      : mode_(natural_mode(plant, period_s)),
-        damping_(plant.damping_N_s_per_m / plant.mass_kg * period_s),
+  DrivenMode(const scene::Scene& scene, const NominalPlant& plant, const ControlScales& scales)
+      : mode_(natural_mode(plant, scales.carrier_period_s)),
+        step_mode_(natural_mode(plant, scales.step_period_s())),
+        damping_(plant.damping_N_s_per_m / plant.mass_kg * scales.carrier_period_s),
         ramped_(scene.drive->interpolation == scene::Interpolation::linear),
         parts_(scene.drive->codes_per_period),
         range_(assumed_frequency_range(scene)) {}
 
+  /// Over a carrier period.
   const NaturalMode& mode() const { return mode_; }
+  /// Over a step of the controller, which the taps of a notch are apart.
+  const NaturalMode& step_mode() const { return step_mode_; }
   double range() const { return range_; }
 
   /// That of a jump is 1.
@@ -52,7 +56,7 @@ class DrivenMode {
   double left(const std::optional<NotchDesign>& notch) const {
     constexpr int points = 32;  // on either side
     const auto left_at = [&](double factor) {
-      return kick(factor) * (notch ? notch_ripple_at(*notch, mode_, factor) : 1.0);
+      return kick(factor) * (notch ? notch_ripple_at(*notch, step_mode_, factor) : 1.0);
     };
     double most = left_at(1.0);
     for (int i = -points; i <= points && range_ > 0.0; ++i) {
@@ -72,6 +76,7 @@ class DrivenMode {
   }
 
   NaturalMode mode_;
+  NaturalMode step_mode_;
   double damping_;
   bool ramped_;
   int parts_;
@@ -83,7 +88,7 @@ bool is_ramp(double kick) {
   return kick < 0.5;
 }
 
-/// In carrier periods: a longer one holds the feedback up for more than it takes off.
+/// In periods of the controller: a longer one holds the feedback up for more than it takes off.
 constexpr int longest_beside_a_ramp = max_notch_span / 2;
 
 /// @param accepted  to be left
@@ -106,8 +111,8 @@ std::optional<NotchDesign> chosen_notch(const DrivenMode& driven, double accepte
     }
     return left <= accepted;
   };
-  if (!consider(design_notch(driven.mode())) && driven.range() > 0.0) {
-    consider(design_robust_notch(driven.mode(), driven.range()));
+  if (!consider(design_notch(driven.step_mode())) && driven.range() > 0.0) {
+    consider(design_robust_notch(driven.step_mode(), driven.range()));
   }
   return best;
 }
@@ -129,7 +134,7 @@ double assumed_frequency_range(const scene::Scene& scene) {
 
 LeftBehind left_behind(const scene::Scene& scene, const NominalPlant& plant,
                        const ControlDesign& design, const std::optional<NotchDesign>& notch) {
-  const DrivenMode driven(scene, plant, design.scales.carrier_period_s);
+  const DrivenMode driven(scene, plant, design.scales);
   const double rotation = driven.mode().rotation;
   if (!(rotation > 0.0)) {
     return {};
@@ -141,15 +146,15 @@ LeftBehind left_behind(const scene::Scene& scene, const NominalPlant& plant,
 FeedforwardDesign design_ramped(const scene::Scene& scene, const NominalPlant& plant,
                                 const ControlDesign& design) {
   FeedforwardDesign found;
-  found.ramped = true;
-  const DrivenMode driven(scene, plant, design.scales.carrier_period_s);
+  found.ramp_periods = 1.0 / design.scales.every_periods;
+  const DrivenMode driven(scene, plant, design.scales);
   found.frequency_range = driven.range();
   if (!(driven.mode().rotation > 0.0)) {
     return found;
   }
   const double swing = largest_swing(scene, plant, design, driven.mode().rotation);
   if (scene.controller->shaping) {
-    design_named_notch(scene, driven.mode(), found);
+    design_named_notch(scene, driven.step_mode(), found);
   } else {
     found.notch = chosen_notch(driven, scene.run.settling_band / swing);
   }

@@ -29,7 +29,7 @@ LeftBehind left_behind(const scene::Scene& scene, const NominalPlant& plant,
 /// Ramp and notch are linear, so that what one leaves of the mode the other leaves a part of. The first
 /// of these that leaves a swing of the friction ratio within the settling band: the ramp, a notch of
 /// three taps, one of five. Where none does, the one that leaves least; of those a notch only if it
-/// halves what the ramp leaves and spans at most 32 carrier periods, since it takes time. A ramp that
+/// halves what the ramp leaves and spans at most 32 periods of the controller, since it takes time. A ramp that
 /// leaves half of a jump's kick or more is none. A scene that names controller.shaping has that in place
 /// of the choice.
 /// @param design  of the scene, with its scales and its friction

@@ -128,7 +128,7 @@ QuietDrive quiet_drive(const scene::Scene& nominal, double stiffness_range) {
   return {nominal.drive->interpolation,
           mode.quieting,
           mode.notch ? mode.notch->tap_count : 0,
-          mode.changing_periods(),
+          mode.changing_periods() * design.scales.every_periods,
           configure::left_behind(nominal, configure::nominal_plant(nominal), design, mode.notch),
           try_plants(nominal, stiffness_range)};
 }

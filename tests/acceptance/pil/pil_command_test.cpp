@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "image_cache.hpp"
@@ -161,6 +162,71 @@ TEST_F(PilCommandTest, SaysWhatToInstall) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.err,
             "qemu-system-riscv32: is not installed; on Debian: apt-get install qemu-system-misc\n");
+}
+
+const std::string for_pico = "pil " + scene_file("target_step_q31") +
+                             " --board pico --set sensor.adc_bits=12 --set sensor.velocity_bits=12";
+
+TEST_F(PilCommandTest, AScenesOwnImageOnThePicoHasTheWorkstationsCommands) {
+  if (!std::filesystem::exists(SONOGLIDE_SOURCE_TREE "/build/npm/node_modules/rp2040js")) {
+    GTEST_SKIP() << "needs the npm package rp2040js";
+  }
+  for (const char* samples : {"", " --set sensor.samples_per_period=4"}) {
+    const nlohmann::json summary = summary_of(folder_, for_pico + samples);
+    EXPECT_EQ(summary.at("pil").at("same_as_workstation"), true);
+    EXPECT_EQ(summary.at("pil").at("board"), "pico");
+    EXPECT_GT(summary.at("pil").at("instructions_per_step").at("min"), 400);
+    EXPECT_LE(summary.at("pil").at("instructions_per_step").at("max"), 1900);
+    EXPECT_GT(summary.at("pil").at("stack_bytes_bound"), 100);
+  }
+}
+
+TEST_F(PilCommandTest, ThePicoRefusesWhatItDoesNotHave) {
+  for (const auto& [setting, finding] : std::vector<std::pair<std::string, std::string>>{
+           {"controller.arithmetic=float32", "has no time for floating point"},
+           {"controller.every_periods=2", "steps in each carrier period; allowed: 1"},
+           {"drive.delay_periods=2", "answers in the carrier period after the sampled one; "},
+           {"drive.interpolation=linear", "holds the amplitude over a carrier period; "},
+           {"sensor.adc_bits=14", "has converters of 12 bits; "},
+           {"sensor.velocity_bits=", "has converters of 12 bits; "},
+           {"sensor.samples_per_period=3",
+            "converts the force four times in a carrier period; "}}) {
+    const Outcome outcome = folder_.run(for_pico + " --set " + setting);
+    EXPECT_EQ(outcome.exit_code, 2) << setting;
+    EXPECT_NE(outcome.err.find(setting.substr(0, setting.find('=')) + ": the pico " + finding),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(folder_.entries().empty());
+  }
+}
+
+TEST_F(PilCommandTest, SaysWhatThePicoNeeds) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder_.path().c_str(), 1);
+  const Outcome without_node = folder_.run(for_pico);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(without_node.exit_code, 1);
+  EXPECT_EQ(without_node.err, "node: is not installed; on Debian: apt-get install nodejs\n");
+
+  const ScratchFolder sources;  // with nothing beside them
+  std::filesystem::create_directory_symlink(SONOGLIDE_SOURCE_TREE "/firmware",
+                                            sources.path() / "firmware");
+  setenv("SONOGLIDE_SOURCE", sources.path().c_str(), 1);
+  unsetenv("NODE_PATH");
+  const Outcome without_package = folder_.run(for_pico);
+  unsetenv("SONOGLIDE_SOURCE");
+  EXPECT_EQ(without_package.exit_code, 1);
+  EXPECT_EQ(without_package.err.rfind("rp2040js: the npm package that emulates a Pico is not", 0),
+            0U)
+      << without_package.err;
+  EXPECT_EQ(std::count(without_package.err.begin(), without_package.err.end(), '\n'), 1);
+}
+
+TEST_F(PilCommandTest, RunsAControllerThatStepsOnceInSixteenPeriods) {
+  const nlohmann::json summary =
+      summary_of(folder_, "pil " + scene_file("target_step_q31") +
+                              " --board microbit --set controller.every_periods=16");
+  EXPECT_EQ(summary.at("pil").at("same_as_workstation"), true);
 }
 
 TEST_F(PilCommandTest, SaysWhereSourcesAreMissing) {

@@ -8,7 +8,7 @@ const assert = require('node:assert');
 const {Pico} = require('../../../hal/pico/emulated/pico.cjs');
 const {Link, kinds} = require('./link.cjs');
 
-const longestControl = 2000; // clocks from the carrier's interrupt to its end, of 2,200
+const longestControl = 1900; // clocks from the carrier's interrupt to its end, of 2,200
 const driveLimit = 1; // numbers of parameters
 const hostTimeout = 7;
 const refusedWhileDriving = 6;

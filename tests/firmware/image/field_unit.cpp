@@ -73,7 +73,7 @@ int main() {
 #ifdef WITH_LINK
   static constexpr app::FieldDesign<configuration::Parts> design(
       configuration::parameters, configuration::target_steps[0].half_ratio, configuration::design,
-      configuration::carrier_period_s, app::default_timeout_ms);
+      configuration::step_period_s, app::default_timeout_ms);
   Flash flash;
   ByteLink bytes;
   app::Unit unit(design, flash);

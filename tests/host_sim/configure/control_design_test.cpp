@@ -243,6 +243,62 @@ TEST(ControlDesignTest, IntegralIsSlowerTheLongerTheSensorTakes) {
   }
 }
 
+/// Steps until a reading is that of a carrier period in which an answer acts, counted one by one.
+int steps_to_the_reading(int every, int drive_delay, int sensor_delay) {
+  const int first_driven =
+      every + drive_delay;  // of the step at the end of carrier period every - 1
+  int steps = 1;
+  while ((steps + 1) * every - 1 - sensor_delay < first_driven) {
+    ++steps;
+  }
+  return steps;
+}
+
+TEST(ControlDesignTest, WaitsForAReadingAsManyStepsAsItTakes) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.controller->shaping = scene::Shaping::none;
+  for (int every = 1; every <= 16; ++every) {
+    for (const int drive_delay : {0, 1, 2, 3, 15, 16}) {
+      for (const int sensor_delay : {0, 1, 7, 64}) {
+        scene.controller->every_periods = every;
+        scene.drive->delay_periods = drive_delay;
+        scene.sensor.delay_periods = sensor_delay;
+        EXPECT_EQ(design_control(scene).reference_delay_periods,
+                  steps_to_the_reading(every, drive_delay, sensor_delay))
+            << every << ' ' << drive_delay << ' ' << sensor_delay;
+      }
+    }
+  }
+}
+
+TEST(ControlDesignTest, AStepOfSeveralPeriodsHasItsNotchOnTheModeOverAll) {
+  scene::Scene scene = table_1_closed_loop();
+  int notches = 0;
+  for (int every = 1; every <= 16; ++every) {
+    scene.controller->every_periods = every;
+    const ControlDesign design = design_control(scene);
+    if (design.notch() != nullptr) {
+      EXPECT_LT(gain_at(design, std::pow(mode_of(scene.plant), every)), 1e-9) << every;
+      ++notches;
+    }
+    EXPECT_EQ(design.notch() == nullptr, design.in_mode<FeedforwardDesign>()->free_mode) << every;
+  }
+  EXPECT_GE(notches, 14);
+}
+
+TEST(ControlDesignTest, TimesAreAsManyStepsAsFitIn) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.controller->every_periods = 8;
+  scene.controller->standstill_hold_s = 800.0 * period_s;
+  scene.controller->calibration_s = 400.0 * period_s;
+  const ControlDesign design = design_control(scene);
+  EXPECT_EQ(design.standstill_hold_periods, 100U);
+  EXPECT_DOUBLE_EQ(design.standstill_fall, 8.0 / 128.0);
+  EXPECT_EQ(design.calibration_total_periods, 49U);
+  ASSERT_EQ(design_notes(design).size(), 1U);
+  EXPECT_NE(design_notes(design)[0].find("once in 8 carrier periods"), std::string::npos);
+}
+
 TEST(ControlDesignTest, UndampedResonanceHasNoController) {
   scene::Scene scene = table_1_closed_loop();
   scene.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;

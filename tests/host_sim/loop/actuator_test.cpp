@@ -40,6 +40,28 @@ TEST(ActuatorTest, GivesTheNearestAmplitude) {
   }
 }
 
+TEST(ActuatorTest, AnAnswerHoldsUntilTheNextOneActs) {
+  for (const int delay : {0, 1, 5}) {
+    scene::Scene scene = with_bits(31);
+    scene.drive->delay_periods = delay;
+    Actuator actuator(scene);
+    constexpr int every = 3;
+    for (int period = 0; period < 60; ++period) {
+      if (period % every == every - 1) {
+        hal::Drive drive{};
+        drive.amplitude = (period + 1) << 20;
+        actuator.take(drive, 0.5);
+      } else {
+        actuator.hold();
+      }
+      // In force in the next period: the last answer that is old enough.
+      const int answered = (period + 1 - delay) / every * every;
+      const double wanted_N = answered > 0 ? std::ldexp(limit_N, -11) * answered : 0.0;
+      EXPECT_NEAR(actuator.in_force().amplitude_N, wanted_N, 1e-5) << period << ' ' << delay;
+    }
+  }
+}
+
 TEST(ActuatorTest, CodesWithinAPeriodAreAmplitudesThatItGives) {
   scene::Scene scene = with_bits(6);
   scene.drive->interpolation = scene::Interpolation::linear;

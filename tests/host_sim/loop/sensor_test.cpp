@@ -291,6 +291,31 @@ TEST(SensorTest, ConversionsAreDelayedByWholePeriods) {
   }
 }
 
+TEST(SensorTest, PeriodsThatNobodyLooksAtPassThroughFilterAndDelay) {
+  for (const bool sampled : {false, true}) {
+    scene::Sensor description;
+    description.delay_periods = 2;
+    (sampled ? description.filter_Hz : description.force_bandwidth_Hz) = 5e3;
+    if (sampled) {
+      description.samples_per_period = 3;
+    }
+    Sensor watched(description, scales);
+    Sensor passed(description, scales);
+    for (int k = 0; k < 100; ++k) {
+      const double force_N = full_scale_N * std::sin(0.7 * k) * 0.9;
+      const PeriodForce force(force_N, sampled
+                                           ? std::vector<double>{0.5 * force_N, force_N, force_N}
+                                           : std::vector<double>{});
+      const hal::Sample seen = watched.sample(force, 0.0);
+      if (k % 7 == 6) {
+        EXPECT_EQ(passed.sample(force, 0.0).friction_force, seen.friction_force) << k;
+      } else {
+        passed.pass(force);
+      }
+    }
+  }
+}
+
 TEST(SensorTest, WithoutAForceSensorTheForceReadsZero) {
   scene::Sensor none;
   none.force = false;

@@ -183,6 +183,7 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.run.window_start_s, 1e-3);
   EXPECT_EQ(scene.run.settling_band, 0.02);
   EXPECT_EQ(scene.controller->arithmetic, scene::Arithmetic::float32);
+  EXPECT_EQ(scene.controller->every_periods, 2);
   ASSERT_EQ(scene.controller->target_friction_ratio.size(), 2U);
   EXPECT_EQ(scene.controller->target_friction_ratio[1].time_s, 2e-3);
   EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.6);

@@ -308,6 +308,7 @@ window_start_s = 1e-3
 settling_band = 0.02
 [controller]
 arithmetic = "float32"
+every_periods = 2
 target_friction_ratio = [[0.0, 0.4], [2e-3, 0.6]]
 friction = "calibrated"
 calibration_s = 0.5e-3
