@@ -51,9 +51,9 @@ const std::vector<EmulatedBoard>& emulated_boards() {
 }
 
 const std::vector<EmulatedBoard>& carrier_boards() {
-  static const std::vector<EmulatedBoard> boards = {
+  static const std::vector<EmulatedBoard> carriers = {
       {"pico", "Cortex-M0+", "arm-cortex-m0plus", "node", {}, 1.0, false, "_scene"}};
-  return boards;
+  return carriers;
 }
 
 const EmulatedBoard* find_board(std::string_view name) {
