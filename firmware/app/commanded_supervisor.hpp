@@ -57,7 +57,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
 
     Kind kind = Kind::restart;
     std::uint32_t faults = 0;
-    Scalar half_ratio{};
+    Scalar target{};
     std::uint32_t timeout_periods = 0;
     ControllerT controller;  ///< of other parameters; made by the service, which has the time
   };
@@ -146,20 +146,20 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     orders_.draft().faults = faults;
     orders_.post();
   }
-  /// @param half_ratio  see Controller::set_target
-  /// @param faults      as of a restart
-  void order_target(Scalar half_ratio, std::uint32_t faults) {
+  /// @param target  see Controller::set_target
+  /// @param faults  as of a restart
+  void order_target(Scalar target, std::uint32_t faults) {
     orders_.draft().kind = Kind::target;
     orders_.draft().faults = faults;
-    orders_.draft().half_ratio = half_ratio;
+    orders_.draft().target = target;
     orders_.post();
   }
   /// Another controller in its place; only while the unit does not drive.
-  void order_parameters(const Parameters& parameters, Scalar half_ratio,
+  void order_parameters(const Parameters& parameters, Scalar target,
                         std::uint32_t timeout_periods) {
     Order& order = orders_.draft();
     order.kind = Kind::parameters;
-    order.half_ratio = half_ratio;
+    order.target = target;
     order.timeout_periods = timeout_periods;
     order.controller = ControllerT(parameters);
     orders_.post();
@@ -186,13 +186,13 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         start();
         break;
       case Kind::target:
-        Base::set_target(order.half_ratio);
+        Base::set_target(order.target);
         break;
       case Kind::parameters:
         timeout_periods_ = order.timeout_periods;
         Base::replace(order.controller);
         Base::settle_at(designed_);
-        Base::set_target(order.half_ratio);
+        Base::set_target(order.target);
         break;
     }
     const bool steps = order.kind == Kind::target;

@@ -114,22 +114,23 @@ class FieldDesign {
       control::Parts<Scalar, typename PartsT::Friction, typename PartsT::Feedforward,
                      typename PartsT::Slew, typename PartsT::Shaper, typename PartsT::Regulator,
                      typename PartsT::Relearning, typename PartsT::Vibration,
-                     typename PartsT::Force, control::DriveLimit<Scalar>, control::TolerantSamples>;
+                     typename PartsT::Force, typename PartsT::Target, control::DriveLimit<Scalar>,
+                     control::TolerantSamples>;
   using Controller = control::Controller<Parts>;
   using Designed = typename control::Controller<PartsT>::Parameters;
 
   /// @param designed     the controller's parameters, as sonoglide configure writes them.
-  /// @param half_target  the target from reset on, friction ratio on base 2.
-  /// @param design       number of the design: of a store that was written under another, only
-  ///                     the limits are taken, and the unit waits to be told.
-  /// @param period_s     of the loop, which a step answers; above 1e-6 s.
-  /// @param timeout_ms   host_timeout as compiled in: 0: a silent host is borne for ever.
-  constexpr FieldDesign(const Designed& designed, Scalar half_target, std::uint32_t design,
+  /// @param target      from reset on, see Controller::set_target.
+  /// @param design      number of the design: of a store that was written under another, only
+  ///                    the limits are taken, and the unit waits to be told.
+  /// @param period_s    of the loop, which a step answers; above 1e-6 s.
+  /// @param timeout_ms  host_timeout as compiled in: 0: a silent host is borne for ever.
+  constexpr FieldDesign(const Designed& designed, Scalar target, std::uint32_t design,
                         double period_s, std::uint32_t timeout_ms)
       : designed_(designed),
         ranges_{{
             {Inheritance::none, 0, one_in_millionths,
-             millionths(2.0 * numeric::to_real(half_target))},
+             millionths(target_base * numeric::to_real(target))},
             {Inheritance::value, 0, one_in_millionths, one_in_millionths},
             {Inheritance::value, 0, one_in_millionths, one_in_millionths},
             {Inheritance::none, smallest_friction(), one_in_millionths,
@@ -141,7 +142,7 @@ class FieldDesign {
             {Inheritance::value, 0, longest_timeout_ms, timeout_ms},
             {Inheritance::none, 0, sample_window - 1, 0},
         }},
-        half_target_(half_target),
+        target_(target),
         design_(number(design)),
         periods_per_ms_(numeric::round_half_up<std::uint32_t>(1e-3 / period_s * one_in_fraction)) {}
 
@@ -201,7 +202,8 @@ class FieldDesign {
         designed_.plausibility,
         designed_.watch,
         {control::FullDrive<Scalar>::highest()},
-        {static_cast<std::uint8_t>(value(values, Parameter::bad_samples)), sample_window}};
+        {static_cast<std::uint8_t>(value(values, Parameter::bad_samples)), sample_window},
+        designed_.target};
     if (changed(values, Parameter::drive_limit)) {
       result.ceiling.highest =
           fraction_below<Scalar>(value(values, Parameter::drive_limit), one_in_millionths);
@@ -219,14 +221,15 @@ class FieldDesign {
     return result;
   }
 
-  /// A friction ratio in millionths as controllers take it, on base 2; the designed target exactly.
-  constexpr Scalar half_target(std::uint32_t millionths) const {
+  /// A target in millionths as controllers take it; the designed one exactly.
+  constexpr Scalar target(std::uint32_t millionths) const {
     return millionths == ranges_[static_cast<std::size_t>(Parameter::target)].preset
-               ? half_target_
-               : fraction<Scalar>(millionths, 2 * one_in_millionths);
+               ? target_
+               : fraction<Scalar>(millionths, target_base * one_in_millionths);
   }
 
  private:
+  static constexpr std::uint32_t target_base = PartsT::Target::base;
   static constexpr std::uint32_t longest_timeout_ms = 60'000;
   static constexpr std::uint32_t longest_save_ms = 10'000;
   static constexpr std::uint32_t longest_service_ms = 50;
@@ -276,7 +279,7 @@ class FieldDesign {
 
   Designed designed_;
   std::array<ParameterRange, parameter_count> ranges_;
-  Scalar half_target_;
+  Scalar target_;
   std::uint32_t design_;
   std::uint32_t periods_per_ms_;  ///< of the loop, with 16 fraction bits
 };

@@ -174,11 +174,11 @@ class LinkService {
     answer(link::Telemetry{shown.periods, shown.friction_force, shown.sliding_velocity,
                            drive.amplitude, unit_.target(), drive.state, drive.limit, drive.fault,
                            static_cast<std::uint8_t>(unit_.origin()), lost_frames_, drive.settling,
-                           mismatch_thousandths(drive, unit_.target())});
+                           mismatch_thousandths(drive, unit_.target_ratio())});
   }
 
   void carry_out(const link::SetTarget& request) {
-    if (unit_.set_target(request.ratio, request_faults_) == Answer::taken) {
+    if (unit_.set_target(request.target, request_faults_) == Answer::taken) {
       ordering_ = request.kind;
     } else {
       refuse_value(request.kind, unit_.range(Parameter::target));
@@ -266,7 +266,7 @@ class LinkService {
       answer(link::Restarted{});
     } else {
       link::TargetSet set{};
-      set.ratio = unit_.target();
+      set.target = unit_.target();
       answer(set);
     }
   }

@@ -13,7 +13,7 @@ namespace sonoglide::app {
 /// loop. 0 if it is unknown. Limited to 65,535. Rounded down, from a commanded ratio that is
 /// rounded to a millionth.
 /// @param drive   the answer of the step.
-/// @param target  friction ratio, millionths.
+/// @param target  friction ratio, millionths; 0: not known.
 inline std::uint16_t mismatch_thousandths(const hal::Drive& drive, std::uint32_t target) {
   if (drive.settling != static_cast<std::uint8_t>(control::Settling::settled) || target == 0) {
     return 0;

@@ -11,7 +11,8 @@ namespace sonoglide::app {
 
 /// The order is that of the link: a new one goes to the end. The store knows them by name.
 enum class Parameter : std::uint8_t {
-  target,          ///< friction ratio from reset on; 1 is no drive
+  target,          ///< from reset on: friction ratio, 1 is no drive; or friction force, of the
+                   ///< sensor's full scale, 0 is no drive
   drive_limit,     ///< highest amplitude, of the actuator's limit
   gain_scale,      ///< feedback, of the designed gain; 0 leaves feedforward alone
   friction_force,  ///< believed Fc, of the sensor's full scale; a calibration overrides it

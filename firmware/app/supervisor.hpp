@@ -115,8 +115,8 @@ class Supervisor {
   /// Neither off nor in a fault, or on the ramp down.
   bool driving() const { return running() || host_.falling(); }
 
-  /// @param half_ratio  see Controller::set_target.
-  void set_target(Scalar half_ratio) { controller_.set_target(half_ratio); }
+  /// @param target  see Controller::set_target.
+  void set_target(Scalar target) { controller_.set_target(target); }
 
   /// Another controller in its place, for the next restart; not while driving. settle_at() follows.
   void replace(const Controller& controller) { controller_ = controller; }

@@ -10,7 +10,7 @@ namespace sonoglide::app {
 template <class Scalar>
 struct TargetStep {
   std::uint32_t period;  ///< in force from the sample of this carrier period on, counted from 0
-  Scalar half_ratio;     ///< target friction ratio on base 2
+  Scalar target;         ///< see Controller::set_target
 };
 
 /// Walks through steps of rising period, one call for each carrier period.
@@ -23,7 +23,7 @@ class TargetSchedule {
   template <class Controller>
   void advance(Controller& controller) {
     while (next_ < Count && steps_[next_].period <= period_) {
-      controller.set_target(steps_[next_++].half_ratio);
+      controller.set_target(steps_[next_++].target);
     }
     ++period_;
   }

@@ -34,7 +34,7 @@ template <class Scalar>
 struct TimedTarget {
   /// In force from the first sample at this time or after, see ElapsedPeriods.
   std::uint64_t elapsed;
-  Scalar half_ratio;  ///< target friction ratio on base 2
+  Scalar target;  ///< see Controller::set_target
 };
 
 /// The targets of a run, and the frequency word that it begins with.
@@ -56,7 +56,7 @@ class TimedSchedule {
   void advance(Controller& controller) {
     elapsed_.add(controller.next_frequency());
     while (next_ < Count && targets_.steps[next_].elapsed <= elapsed_.value()) {
-      controller.set_target(targets_.steps[next_++].half_ratio);
+      controller.set_target(targets_.steps[next_++].target);
     }
   }
 

@@ -50,7 +50,7 @@ class Unit {
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_), design.designed(),
                     design.timeout_periods(values_), design.service_periods()) {
-    supervisor_.set_target(design_.half_target(target_));
+    supervisor_.set_target(design_.target(target_));
     begin();
   }
 
@@ -86,14 +86,14 @@ class Unit {
   }
 
   /// In force from the next carrier period on, until reset.
-  /// @param ratio   friction ratio, millionths.
+  /// @param target  see Parameter::target, millionths.
   /// @param faults  that were known when the request came: a later one overtakes it
-  Answer set_target(std::uint32_t ratio, std::uint32_t faults) {
-    if (!range(Parameter::target).allows(ratio)) {
+  Answer set_target(std::uint32_t target, std::uint32_t faults) {
+    if (!range(Parameter::target).allows(target)) {
       return Answer::out_of_range;
     }
-    ordered_target_ = ratio;
-    supervisor_.order_target(design_.half_target(ratio), faults);
+    ordered_target_ = target;
+    supervisor_.order_target(design_.target(target), faults);
     return Answer::taken;
   }
 
@@ -108,8 +108,10 @@ class Unit {
     return end;
   }
 
-  /// Friction ratio, millionths.
+  /// See Parameter::target, millionths.
   std::uint32_t target() const { return target_; }
+  /// Friction ratio, millionths; 0 where the target is a force.
+  std::uint32_t target_ratio() const { return PartsT::Target::tells_ratio ? target_ : 0; }
 
   const ParameterRange& range(std::size_t parameter) const { return design_.range(parameter); }
   const ParameterRange& range(Parameter parameter) const {
@@ -224,8 +226,8 @@ class Unit {
   }
 
   [[gnu::noinline]] void order_parameters() {
-    supervisor_.order_parameters(design_.controller_parameters(values_),
-                                 design_.half_target(target_), design_.timeout_periods(values_));
+    supervisor_.order_parameters(design_.controller_parameters(values_), design_.target(target_),
+                                 design_.timeout_periods(values_));
   }
 
   /// What is saved is in force in the end, whatever stops come in between.

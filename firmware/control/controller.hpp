@@ -16,8 +16,8 @@
 
 namespace sonoglide::control {
 
-/// Picks the drive so that the friction ratio reaches a target; one step per carrier period. A pure
-/// function of its state and the measurement: no clock, no I/O, no heap.
+/// Picks the drive so that the friction ratio, or the friction force, reaches a target; one step per
+/// carrier period. A pure function of its state and the measurement: no clock, no I/O, no heap.
 ///
 /// Per unit: force on the sensor's full scale, amplitude on the actuator's limit, friction ratios
 /// on base 2. A drive that is fed forward is asked for an amplitude; speed is on the peak vibration
@@ -53,7 +53,8 @@ class Controller {
         watch_(parameters.watch),
         ceiling_(parameters.ceiling),
         samples_(parameters.samples),
-        level_(parameters.friction_force) {}
+        level_(parameters.friction_force),
+        aim_(parameters.target) {}
 
   /// Makes a copy, or the bytes, of a controller that stood elsewhere its own.
   /// @param parameters  of a controller with the same vibration, and equal to its own; outlive this
@@ -66,8 +67,9 @@ class Controller {
   /// already becomes one here, as if it were set next: until then no drive is asked for.
   void start() {
     const bool driven = state_ == State::running || state_ == State::limited;
-    const Scalar target = target_;
+    const Scalar target = aim_.given(target_);
     target_ = whole_ratio();
+    aim_.restart();
     restart(friction_, shaper_);
     regulator_.restart(target_);
     restart(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
@@ -92,18 +94,19 @@ class Controller {
     fault_ = Fault::none;
   }
 
-  /// @param half_ratio  target friction ratio on base 2, limited to [0, 1/2]; 1/2 (ρ = 1) is
-  ///                    no drive at all. A target that is not finite leaves the old one in force.
-  void set_target(Scalar half_ratio) {
-    if (!numeric::is_finite(half_ratio)) {
+  /// @param target  friction ratio or force, see RatioTarget::take() and ForceTarget::take(). One that is
+  ///                not finite leaves the old one in force.
+  void set_target(Scalar target) {
+    if (!numeric::is_finite(target)) {
       return;
     }
-    const Scalar target = numeric::clamp(half_ratio, Scalar{}, whole_ratio());
-    if (target != target_) {
-      regulator_.target_changes(target - target_);
+    const Scalar ratio = aim_.take(
+        target, [this] { return believed_friction(); }, level_);
+    if (ratio != target_) {
+      regulator_.target_changes(ratio - target_);
       watch_.retarget();
-      vibration_.retarget(target - target_);
-      target_ = target;
+      vibration_.retarget(ratio - target_);
+      target_ = ratio;
     }
   }
 
@@ -206,10 +209,16 @@ class Controller {
     state_ = State::running;
   }
 
+  Scalar believed_friction() const {
+    return friction_.learning() ? configured_friction_
+                                : friction_.friction_force(configured_friction_);
+  }
+
   /// Takes Fc and adapts the inverse map to it.
   void adopt_friction() {
     take_friction_force(friction_.friction_force(configured_friction_));
     relearning_.adapt(feedforward_, level_);
+    aim_.follow([this] { return believed_friction(); }, level_, target_);
     map_.forget();
   }
 
@@ -224,8 +233,8 @@ class Controller {
   /// gives no drive here either. @param limit  that is named
   Request stand(Limit limit) {
     interrupt();
-    return target_ < whole_ratio() ? slewed({standstill_.request(requested_), limit})
-                                   : slewed({Scalar{}, Limit::none});
+    return aim_.driven(target_) ? slewed({standstill_.request(requested_), limit})
+                                : slewed({Scalar{}, Limit::none});
   }
 
   /// Answer at a sliding that is fast enough for a friction ratio, as far as a sensor tells one.
@@ -237,7 +246,7 @@ class Controller {
       const Scalar force = friction_.without_offset(measurement.friction_force);
       const Scalar along = backwards_ ? -force : force;
       const Scalar measured = level_.half_ratio(along);
-      if (plausibility_.implausible(measured, measurement.sliding_velocity)) {
+      if (plausibility_.implausible(aim_.judged(measured), measurement.sliding_velocity)) {
         return trip(plausibility_.stood_still(measured, measurement.sliding_velocity)
                         ? Fault::velocity_stuck
                         : Fault::measurement_implausible);
@@ -260,7 +269,7 @@ class Controller {
 
   /// What relearning asks for in this period. Without a drive there is nothing to pause.
   Task next_task(const FrictionReading<Scalar>& reading) {
-    if (target_ < whole_ratio()) {
+    if (aim_.driven(target_)) {
       return relearning_.next(reading, feedforward_);
     }
     interrupt_relearning();
@@ -301,11 +310,11 @@ class Controller {
 
   Request regulate(Scalar measured, Scalar speed) {
     // No drive can bring an undriven reading to its target.
-    if (whole_ratio() <= target_ || !vibration_.settled()) {
+    if (aim_.undriven(target_) || !vibration_.settled()) {
       regulator_.hold();
     }
     regulator_.learn_scale([&](Scalar ratio) { return feedforward_.amplitude(ratio, speed); });
-    const Scalar ratio = regulator_.propose(target_, measured);
+    const Scalar ratio = regulator_.propose(target_, aim_.reading(measured, target_, commanded_));
     const Request wanted = feedforward(ratio, speed);
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = amplitude < wanted.amplitude;
@@ -328,7 +337,7 @@ class Controller {
 
   /// Judges the measured ratio; without a drive there is nothing to judge.
   void judge(Scalar measured, Scalar speed, bool clamped) {
-    if (whole_ratio() <= target_) {
+    if (aim_.undriven(target_)) {
       watch_.restart();
       return;
     }
@@ -342,7 +351,7 @@ class Controller {
 
   /// Amplitude for a commanded ratio, from the inverse map.
   Request feedforward(Scalar half_ratio, Scalar speed) {
-    if (whole_ratio() <= target_) {
+    if (aim_.undriven(target_)) {
       return {Scalar{}, Limit::none};
     }
     const Scalar amplitude = regulator_.scaled(map_.amplitude(feedforward_, half_ratio, speed));
@@ -388,7 +397,8 @@ class Controller {
   [[no_unique_address]] typename PartsT::Ceiling ceiling_;
   [[no_unique_address]] typename PartsT::Samples samples_;
   FrictionLevel<Scalar> level_;
-  Scalar target_ = whole_ratio();
+  [[no_unique_address]] typename PartsT::Target aim_;
+  Scalar target_ = whole_ratio();     ///< friction ratio on base 2
   Scalar commanded_ = whole_ratio();  ///< friction ratio, target and feedback together, on base 2
   Scalar requested_{};                ///< amplitude before shaping, or vibration velocity
   bool backwards_ = false;            ///< the sliding

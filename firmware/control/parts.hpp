@@ -9,6 +9,7 @@
 #include "firmware/control/limits/standstill_hold.hpp"
 #include "firmware/control/limits/stuck_detector.hpp"
 #include "firmware/control/limits/tolerant_samples.hpp"
+#include "firmware/control/target.hpp"
 #include "firmware/control/vibration/fed_forward.hpp"
 
 namespace sonoglide::control {
@@ -20,7 +21,8 @@ namespace sonoglide::control {
 template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class ShaperT,
           class RegulatorT, class RelearningT = NoRelearning<ScalarT>,
           class VibrationT = FedForward<ScalarT>, class ForceT = ForceSensor,
-          class CeilingT = FullDrive<ScalarT>, class SamplesT = StrictSamples>
+          class TargetT = RatioTarget<ScalarT>, class CeilingT = FullDrive<ScalarT>,
+          class SamplesT = StrictSamples>
 struct Parts {
   using Scalar = ScalarT;
   using Friction = FrictionT;        ///< TrustedFriction | LearntFriction
@@ -32,6 +34,7 @@ struct Parts {
   using Vibration =
       VibrationT;        ///< FedForward | SensorlessVibration | DampedVibration | ResonantVibration
   using Force = ForceT;  ///< ForceSensor | NoForceSensor
+  using Target = TargetT;    ///< RatioTarget | ForceTarget
   using Ceiling = CeilingT;  ///< FullDrive | DriveLimit
   using Samples = SamplesT;  ///< StrictSamples | TolerantSamples
 
@@ -66,6 +69,7 @@ struct ControllerParameters {
   [[no_unique_address]] typename PartsT::Watch::Parameters watch;
   [[no_unique_address]] typename PartsT::Ceiling::Parameters ceiling{};
   [[no_unique_address]] typename PartsT::Samples::Parameters samples{};
+  [[no_unique_address]] typename PartsT::Target::Parameters target{};
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& self, Visitor&& visit) {
@@ -86,6 +90,7 @@ struct ControllerParameters {
     visit("watch", self.watch);
     visit("ceiling", self.ceiling);
     visit("samples", self.samples);
+    visit("target", self.target);
   }
 };
 

@@ -25,7 +25,7 @@ static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
 
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].half_ratio,
+                                                        configuration::target_steps[0].target,
                                                         configuration::design,
                                                         configuration::step_period_s,
                                                         app::default_timeout_ms);

@@ -25,7 +25,7 @@ constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
 constexpr std::uint32_t timeout_ms = 0;
 
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].half_ratio,
+                                                        configuration::target_steps[0].target,
                                                         configuration::design, period_s,
                                                         timeout_ms);
 

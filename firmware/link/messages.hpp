@@ -31,7 +31,7 @@ struct Telemetry {
   std::int32_t friction_force;    ///< converter code
   std::int32_t sliding_velocity;  ///< converter code
   std::int32_t amplitude;         ///< code in force; full scale: the actuator's limit
-  std::uint32_t target;           ///< friction ratio, millionths
+  std::uint32_t target;           ///< app::Parameter::target, millionths
   std::uint8_t state;             ///< control::State
   std::uint8_t limit;             ///< control::Limit
   std::uint8_t fault;             ///< control::Fault or app::UnitFault
@@ -60,11 +60,11 @@ struct Telemetry {
 /// In force from the next carrier period on, until reset.
 struct SetTarget {
   static constexpr std::uint8_t kind = 0x02;
-  std::uint32_t ratio;  ///< friction ratio, millionths
+  std::uint32_t target;  ///< app::Parameter::target, millionths
 
   template <class Message, class Visitor>
   static constexpr void fields(Message& message, Visitor&& visit) {
-    visit(message.ratio);
+    visit(message.target);
   }
 };
 

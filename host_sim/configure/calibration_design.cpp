@@ -182,7 +182,7 @@ double gain_deviation(const scene::Scene& scene, const NominalPlant& plant) {
 /// @param others  what else it takes
 double longest_settling(const scene::Scene& scene, const ControlDesign& design, double others) {
   constexpr double part = 0.5;
-  const auto& targets = scene.controller->target_friction_ratio;
+  const auto& targets = scene.controller->targets();
   double shortest_s = scene.run.duration_s;
   double end_s = scene.run.duration_s;
   for (auto target = targets.rbegin(); target != targets.rend(); ++target) {
@@ -315,7 +315,7 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
 double shortest_calibration_s(const scene::Scene& scene, const ControlDesign& design) {
   constexpr double largest_part = 0.5;  // of the time of the first target
   const NominalPlant plant = nominal_plant(scene);
-  const auto& targets = scene.controller->target_friction_ratio;
+  const auto& targets = scene.controller->targets();
   const double first_s =
       targets.size() > 1 ? std::min(targets[1].time_s, scene.run.duration_s) : scene.run.duration_s;
   const double period_s = design.scales.step_period_s();

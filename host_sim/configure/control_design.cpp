@@ -1,5 +1,7 @@
 #include "host_sim/configure/control_design.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <type_traits>
 #include <variant>
@@ -7,6 +9,7 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_steps.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/scene/bound.hpp"
 
 // The elementary functions of a design are the core's own, so that a scene gives the same
 // parameters, bit for bit, on every machine.
@@ -21,6 +24,19 @@ static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, Feedfo
               std::is_same_v<DesignOf<scene::VibrationMode::sensorless>, SensorlessDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::damped>, DampedDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::resonant>, ResonantDesign>);
+
+/// @throws ConfigurationError  the sensor does not read a force that is the target
+void require_readable_targets(const scene::Scene& scene, const ControlDesign& design) {
+  for (const scene::TargetStep& step : scene.controller->target_friction_force_N) {
+    if (!(step.value < design.scales.force_N)) {
+      throw ConfigurationError(
+          "controller.target_friction_force_N",
+          fmt::format(
+              "{:g} N is not below sensor.force_full_scale_N, {:g} N; allowed: at most {} N",
+              step.value, design.scales.force_N, scene::at_most(design.scales.force_N)));
+    }
+  }
+}
 
 /// The loop that holds the vibration, and the regulator of the friction ratio around it.
 void design_vibration(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
@@ -71,8 +87,10 @@ ControlDesign design_control(const scene::Scene& scene) {
     design.force_factor_N_per_V = scene.transducer->force_factor_N_per_V * plant.force_factor;
   }
   design.senses_force = scene.sensor.force;
+  design.holds_force = scene.controller->holds_force();
   design.relearns = scene.controller->relearn_every_s.has_value();
   design_scales(scene, plant, design);
+  require_readable_targets(scene, design);
   design_vibration(scene, plant, design);
   design_bias(scene, plant, design);
   design_supervision(scene, plant, design);

@@ -69,6 +69,7 @@ struct ControlDesign {
   double carrier_Hz = 0.0;            ///< nominal, at the start
   double force_factor_N_per_V = 0.0;  ///< nominal, over which a motional current is a velocity
   bool senses_force = true;
+  bool holds_force = false;  ///< a friction force is the target, not a ratio
   /// In the order of scene::VibrationMode.
   std::variant<FeedforwardDesign, SensorlessDesign, DampedDesign, ResonantDesign> vibration;
   std::optional<BiasDesign> bias;    ///< where the scene has a bias limit

@@ -14,6 +14,7 @@
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
+#include "firmware/control/target.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "host_sim/configure/part_parameters.hpp"
@@ -120,6 +121,12 @@ typename control::PeriodicRelearning<Scalar>::Parameters parameters(
   return all;
 }
 
+template <class Scalar>
+typename control::ForceTarget<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::ForceTarget<Scalar>> /*part*/) {
+  return {design.holds_force};
+}
+
 /// Deviations of ln Fc and of ln Kt at the start.
 inline constexpr double tracked_force_deviation = 0.3;
 inline constexpr double tracked_stiffness_deviation = 0.5;
@@ -159,6 +166,7 @@ control::ControllerParameters<Parts> controller_parameters(const ControlDesign& 
   all.regulator = parameters(design, Type<typename Parts::Regulator>{});
   all.relearning = parameters(design, Type<typename Parts::Relearning>{});
   all.vibration = parameters(design, Type<typename Parts::Vibration>{});
+  all.target = parameters(design, Type<typename Parts::Target>{});
   all.standstill.hold_periods = design.standstill_hold_periods;
   all.standstill.fall_per_period = scaled<Scalar>(design.standstill_fall);
   if constexpr (Parts::Force::present) {

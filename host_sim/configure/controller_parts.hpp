@@ -16,6 +16,7 @@
 #include "firmware/control/limits/current_limit.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
+#include "firmware/control/target.hpp"
 #include "firmware/control/vibration/biased_damping.hpp"
 #include "firmware/control/vibration/damped_vibration.hpp"
 #include "firmware/control/vibration/fed_forward.hpp"
@@ -150,6 +151,7 @@ struct ControllerParts {
       relearning;
   typename VibrationParts<Scalar>::Part vibration;
   Choice<control::ForceSensor, control::NoForceSensor> force;
+  Choice<control::RatioTarget<Scalar>, control::ForceTarget<Scalar>> target;
 
   explicit ControllerParts(const ControlDesign& design)
       : friction(choose<decltype(friction)>(design.calibrated)),
@@ -159,11 +161,12 @@ struct ControllerParts {
         regulator(RegulatorParts<Scalar>::chosen(design)),
         relearning(choose<decltype(relearning)>(relearning_of(design))),
         vibration(VibrationParts<Scalar>::chosen(design)),
-        force(choose<decltype(force)>(!design.senses_force)) {}
+        force(choose<decltype(force)>(!design.senses_force)),
+        target(choose<decltype(target)>(design.holds_force)) {}
 
-  /// Calls visit(name, choice) for each, in the order of control::Parts. A drive that is fed forward
-  /// is the usual one, and not named; nor is the force sensor, which a vibration that is not observed
-  /// has.
+  /// Calls visit(name, choice) for each, in the order of control::Parts. A target that is a ratio is
+  /// the usual one, and not named; nor is a drive that is fed forward, and the force sensor, which a
+  /// vibration that is not observed has, unless something after them is.
   template <class Visitor>
   void fields(Visitor&& visit) const {
     visit("friction", friction);
@@ -172,17 +175,21 @@ struct ControllerParts {
     visit("shaper", shaper);
     visit("regulator", regulator);
     visit("relearning", relearning);
+    const bool of_force = target.index() != 0;
     std::visit(
         [&](auto chosen) {
           using Vibration = typename decltype(chosen)::type;
-          if constexpr (!std::is_same_v<Vibration, control::FedForward<Scalar>>) {
+          if (of_force || !std::is_same_v<Vibration, control::FedForward<Scalar>>) {
             visit("vibration", vibration);
           }
-          if constexpr (Vibration::observed) {
+          if (of_force || Vibration::observed) {
             visit("force", force);
           }
         },
         vibration);
+    if (of_force) {
+      visit("target", target);
+    }
   }
 
  private:

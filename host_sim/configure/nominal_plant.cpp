@@ -16,6 +16,15 @@ double first_undriven_friction_N(const scene::Scene& scene) {
 
 }  // namespace
 
+std::vector<double> NominalPlant::target_ratios(const scene::Controller& controller) const {
+  std::vector<double> ratios;
+  for (const scene::TargetStep& step : controller.targets()) {
+    ratios.push_back(controller.holds_force() ? std::min(1.0, step.value / friction_N)
+                                              : step.value);
+  }
+  return ratios;
+}
+
 NominalPlant nominal_plant(const scene::Scene& scene) {
   const scene::ModelError& error = scene.model_error;
   NominalPlant plant{scene.plant, first_undriven_friction_N(scene) * error.coefficient,

@@ -36,10 +36,10 @@ numeric::Split<Scalar> split(double value) {
   return {scaled<Scalar>(parts.mantissa), parts.exponent};
 }
 
-/// A target friction ratio as a controller takes it, on base 2.
+/// A target as a controller takes it: a friction ratio, or a force [N].
 template <class Scalar>
-Scalar half_target(double friction_ratio) {
-  return scaled<Scalar>(0.5 * friction_ratio);
+Scalar target_of(const ControlDesign& design, double target) {
+  return scaled<Scalar>(design.holds_force ? target / design.scales.force_N : 0.5 * target);
 }
 
 /// Of a part that has none.

@@ -51,8 +51,8 @@ void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
   design.settling_patience_periods =
       whole_periods(holds * design.hold_periods + patience_margin + building_up);
   design.maps_friction = has_true_map(scene, plant);
-  const bool tells =
-      design.maps_friction &&
+  const bool tells =  // a force that is held is right with any friction
+      design.maps_friction && !design.holds_force &&
       std::visit([](const auto& mode) { return mode.tells_mismatch(); }, design.vibration);
   design.agreement = tells ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }

@@ -151,28 +151,30 @@ std::string parameter_lines(const configure::ControlDesign& design,
 }
 
 /// @throws configure::ConfigurationError  an image cannot count so far
-void require_reach(const loop::ScheduledTarget& step, double step_period_s) {
+void require_reach(const scene::Scene& scene, const loop::ScheduledTarget& step,
+                   double step_period_s) {
   constexpr std::uint64_t most_steps = 0xffffffff;
   if (step.place > most_steps) {
     throw configure::ConfigurationError(
-        "controller.target_friction_ratio",
+        scene.controller->holds_force() ? "controller.target_friction_force_N"
+                                        : "controller.target_friction_ratio",
         fmt::format("a step at {:g} s is out of an image's reach; allowed: at most {} s",
                     step.time_s, scene::at_most(static_cast<double>(most_steps) * step_period_s)));
   }
 }
 
 template <class Scalar>
-std::string target_steps(const scene::Scene& scene, const configure::ResonantDesign* resonance) {
+std::string target_steps(const scene::Scene& scene, const configure::ControlDesign& design) {
+  const char* const unit = design.holds_force ? " N" : "";
   const loop::CarrierGrid grid(scene);
   std::string text;
   for (const loop::ScheduledTarget& step : loop::target_schedule(scene, grid)) {
-    if (resonance == nullptr) {
-      require_reach(step, scene.controller->every_periods * grid.period_s());
+    if (design.resonance() == nullptr) {
+      require_reach(scene, step, scene.controller->every_periods * grid.period_s());
     }
-    text +=
-        fmt::format("    {{{}, {}}},  // {}\n", step.place,
-                    Initialiser<Scalar>::of(configure::half_target<Scalar>(step.friction_ratio)),
-                    step.friction_ratio);
+    text += fmt::format("    {{{}, {}}},  // {}{}\n", step.place,
+                        Initialiser<Scalar>::of(configure::target_of<Scalar>(design, step.target)),
+                        step.target, unit);
   }
   return text;
 }
@@ -188,7 +190,7 @@ struct TargetText {
 template <class Scalar>
 TargetText target_text(const scene::Scene& scene, const configure::ControlDesign& design) {
   const configure::ResonantDesign* const resonance = design.resonance();
-  const std::string steps = target_steps<Scalar>(scene, resonance);
+  const std::string steps = target_steps<Scalar>(scene, design);
   if (resonance == nullptr) {
     return {"firmware/app/target_schedule.hpp",
             fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps),
@@ -199,8 +201,7 @@ TargetText target_text(const scene::Scene& scene, const configure::ControlDesign
       "/// The frequency of a command is this step times the word of the start, which is the first "
       "number\n/// above, and the command's steps together.\n"
       "inline constexpr double frequency_step_Hz = {:a};\n",
-      scene.controller->target_friction_ratio.size(), resonance->start_word, steps,
-      resonance->step_Hz);
+      scene.controller->targets().size(), resonance->start_word, steps, resonance->step_Hz);
   return {"firmware/app/timed_targets.hpp", std::move(lines), " at the start"};
 }
 

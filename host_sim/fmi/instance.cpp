@@ -82,8 +82,8 @@ void Instance::require_input(const Variable& input, double value) const {
   if (!std::isfinite(value)) {
     throw CallError(fmt::format("{} is {}; allowed: a finite number", input.name, value));
   }
-  if (input.input == &Inputs::target_friction_ratio && !(value >= 0.0 && value <= 1.0)) {
-    throw CallError(fmt::format("{} is {}; allowed: 0 to 1", input.name, value));
+  if (input.input == &Inputs::target && !(value >= 0.0 && value <= input.highest)) {
+    throw CallError(fmt::format("{} is {}; allowed: 0 to {}", input.name, value, input.highest));
   }
   if (input.input == &Inputs::drive_frequency_Hz &&
       !(value >= lowest_frequency_Hz && value <= highest_frequency_Hz)) {

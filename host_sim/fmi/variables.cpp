@@ -126,6 +126,20 @@ void add_answer(List& list, scene::Arithmetic arithmetic) {
               });
 }
 
+Variable target(const scene::Scene& scene) {
+  const bool of_force = scene.controller->holds_force();
+  Variable variable{of_force ? "target_friction_force_N" : "target_friction_ratio",
+                    Role::input,
+                    of_force ? "N" : "1",
+                    fmt::format("Target from the next sample on, in (0, {}]; 0: the steps of the "
+                                "scene, as long as no other target was given",
+                                scene.highest_target()),
+                    0.0,
+                    &Inputs::target};
+  variable.highest = scene.highest_target();
+  return variable;
+}
+
 void add_controller_outputs(List& list, const scene::Scene& scene) {
   list.output("drive_force_amplitude_N", "N",
               "Drive amplitude in force during the carrier period that comes next", 0.0,
@@ -219,11 +233,7 @@ std::vector<Variable> variables(const configure::Experiment& experiment, loop::K
     }
   }
   if (loop::has_controller(kind)) {
-    list.input(
-        "target_friction_ratio", "1",
-        "Target from the next sample on, in (0, 1]; 0: the steps of the scene, as long as no "
-        "other target was given",
-        0.0, &Inputs::target_friction_ratio);
+    list.add(target(scene));
   }
   if (loop::has_plant(kind) && scene.load) {
     list.input("load_force_N", "N",

@@ -28,6 +28,7 @@ struct Variable {
   std::string description;
   Value start;                                     ///< of an output only its type counts
   double Inputs::*input = nullptr;                 ///< of an input, unless it is seen
+  double highest = 0.0;                            ///< of a target
   double PlantOutputs::*seen = nullptr;            ///< of an input of a controller
   Value (*output)(const SteppedScene&) = nullptr;  ///< of an output
 

@@ -31,14 +31,15 @@ class InProcess : public ControlPort {
   using Drive = app::DriveOf<Controller>;
 
   explicit InProcess(const ControlDesign& design)
-      : parameters_(configure::controller_parameters<Parts>(design)),
+      : design_(design),
+        parameters_(configure::controller_parameters<Parts>(design)),
         controller_(parameters_),
         loop_(controller_, board_) {
     controller_.start();
   }
 
-  void set_target(double friction_ratio) override {
-    controller_.set_target(configure::half_target<typename Parts::Scalar>(friction_ratio));
+  void set_target(double target) override {
+    controller_.set_target(configure::target_of<Scalar>(design_, target));
   }
 
   std::vector<numeric::SignalRecord> signals() const override {
@@ -71,6 +72,7 @@ class InProcess : public ControlPort {
  private:
   using Board = hal::host::SimulatedBoard<Sample, Drive>;
 
+  ControlDesign design_;
   typename Controller::Parameters parameters_;
   Controller controller_;
   Board board_;
@@ -118,7 +120,7 @@ auto map_of(const ControlDesign& design) {
 }
 
 /// Few scenes name a slew limit or relearning: they share compositions that have both, the one that
-/// a scene does not name being wide open. Every composition that is fed forward has a regulator, whose
+/// a scene does not name being wide open. So is a target that is a force. Every composition that is fed forward has a regulator, whose
 /// gain is 0 where there is no feedback. The commands are those of the leanest parts, bit for bit.
 template <class SlewT, class RelearningT>
 struct Extras {
@@ -130,16 +132,17 @@ using ExtrasChoice =
     configure::Choice<Extras<control::NoSlewLimit<Scalar>, control::NoRelearning<Scalar>>,
                       Extras<control::SlewLimit<Scalar>, control::PeriodicRelearning<Scalar>>>;
 
-/// Relearning, the current limit of a resonant loop and its scale are wide open where a scene does
+/// Relearning, a target force, the current limit of a resonant loop and its scale are wide open where a scene does
 /// not name them.
 template <class Scalar, class Friction, class Feedforward, class Regulator, class Vibration,
           class Force>
-using ObservedParts =
-    control::Parts<Scalar, Friction, Feedforward, control::NoSlewLimit<Scalar>,
-                   control::NoShaping<Scalar>, Regulator,
-                   std::conditional_t<Force::present, control::PeriodicRelearning<Scalar>,
-                                      control::NoRelearning<Scalar>>,
-                   Vibration, Force>;
+using ObservedParts = control::Parts<
+    Scalar, Friction, Feedforward, control::NoSlewLimit<Scalar>, control::NoShaping<Scalar>,
+    Regulator,
+    std::conditional_t<Force::present, control::PeriodicRelearning<Scalar>,
+                       control::NoRelearning<Scalar>>,
+    Vibration, Force,
+    std::conditional_t<Force::present, control::ForceTarget<Scalar>, control::RatioTarget<Scalar>>>;
 
 template <class Scalar, class Vibration,
           template <class, int> class Regulator = control::IntegralRegulator>
@@ -161,7 +164,7 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
       parts.friction, map_of<Scalar>(design));
 }
 
-/// Relearning, and the lead of a reading, are wide open where a scene does not name them.
+/// Relearning, a target force and the lead of a reading are wide open where a scene does not name them.
 template <class Scalar, class Vibration>
 std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
@@ -171,7 +174,8 @@ std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
             control::Parts<Scalar, typename decltype(friction)::type,
                            typename decltype(feedforward)::type, control::NoSlewLimit<Scalar>,
                            control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
-                           control::PeriodicRelearning<Scalar>, Vibration>;
+                           control::PeriodicRelearning<Scalar>, Vibration, control::ForceSensor,
+                           control::ForceTarget<Scalar>>;
         return in_process<Parts>(design);
       },
       parts.friction, map_of<Scalar>(design));
@@ -242,7 +246,8 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
                            typename decltype(feedforward)::type, typename Chosen::Slew,
                            typename decltype(shaper)::type,
                            control::IntegralRegulator<Scalar, configure::max_reference_delay>,
-                           typename Chosen::Relearning>;
+                           typename Chosen::Relearning, control::FedForward<Scalar>,
+                           control::ForceSensor, control::ForceTarget<Scalar>>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       parts.friction, map_of<Scalar>(design), parts.shaper,

@@ -18,8 +18,8 @@ namespace sonoglide::loop {
 class ControlPort {
  public:
   virtual ~ControlPort() = default;
-  /// Sets the target friction ratio, in (0, 1].
-  virtual void set_target(double friction_ratio) = 0;
+  /// Sets the target: a friction ratio in (0, 1], or a force [N].
+  virtual void set_target(double target) = 0;
   /// One control step. A controller overrides the one of these that it answers.
   virtual hal::Drive exchange(const hal::Sample& sample);
   /// The same of a controller that observes the vibration.

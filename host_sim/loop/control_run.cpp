@@ -24,7 +24,7 @@ std::optional<app::ElapsedPeriods> elapsed_of(const configure::ControlDesign& de
 
 std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const CarrierGrid& grid) {
   std::vector<ScheduledTarget> schedule;
-  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+  for (const scene::TargetStep& step : scene.controller->targets()) {
     // The sample of a period is taken at its end.
     const std::uint64_t period = std::max<std::uint64_t>(1, grid.at_or_after(step.time_s)) - 1;
     const std::uint64_t place =
@@ -32,7 +32,7 @@ std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const Ca
     const double elapsed =
         std::ldexp(step.time_s / grid.period_s(), app::ElapsedPeriods::fraction_bits);
     schedule.push_back({scene.resonant() ? static_cast<std::uint64_t>(std::round(elapsed)) : place,
-                        step.time_s, step.friction_ratio});
+                        step.time_s, step.value});
   }
   return schedule;
 }
@@ -62,7 +62,9 @@ double ControlRun::frequency_Hz() const {
 
 void ControlRun::label(Period& period) const {
   const Command& command = actuator_.in_force();
+  const bool of_force = record_.design.holds_force;
   period.target = command.target;
+  period.target_ratio = of_force ? command.target / nominal_friction_N_ : command.target;
   period.state = command.state;
   period.limit = command.limit;
   period.settling = command.settling;
@@ -70,7 +72,7 @@ void ControlRun::label(Period& period) const {
   period.bias_N = command.bias_N;
   const bool held =
       command.state == control::State::running || command.state == control::State::limited;
-  if (observes_vibration_ && held && period.target < 1.0) {
+  if (observes_vibration_ && held && (of_force || period.target < 1.0)) {
     period.wanted_vibration_m_per_s =
         record_.design.vibration_map(nominal_friction_N_)
             .velocity_m_per_s(command.commanded_ratio, period.begin_velocity_m_per_s);
@@ -108,9 +110,9 @@ void ControlRun::take(const Drive& drive, double time_s) {
   account_for(drive, time_s);
 }
 
-void ControlRun::aim_at(double friction_ratio) {
+void ControlRun::aim_at(double target) {
   next_step_ = schedule_.size();
-  target_ = friction_ratio;
+  target_ = target;
   port_.set_target(target_);
 }
 
@@ -176,7 +178,7 @@ void ControlRun::follow_target() {
   }
   const std::uint64_t now = elapsed_ ? elapsed_->value() : step_;
   for (; next_step_ < schedule_.size() && schedule_[next_step_].place <= now; ++next_step_) {
-    target_ = schedule_[next_step_].friction_ratio;
+    target_ = schedule_[next_step_].target;
     port_.set_target(target_);
   }
   ++step_;

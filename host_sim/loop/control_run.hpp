@@ -28,7 +28,7 @@ struct ScheduledTarget {
   /// first sample at this time or after, as app::ElapsedPeriods counts it.
   std::uint64_t place;
   double time_s;  ///< as the scene has it
-  double friction_ratio;
+  double target;  ///< likewise
 };
 
 /// The target steps of a closed loop, for a controller in this process and for an image alike.
@@ -59,8 +59,8 @@ class ControlRun {
             std::complex<double> vibration_m_per_s = {}, double mean_velocity_m_per_s = 0.0);
 
   /// Of the sample that comes next and of those after it, in place of the scene's steps.
-  /// @param friction_ratio  in (0, 1]
-  void aim_at(double friction_ratio);
+  /// @param target  a friction ratio in (0, 1], or a force [N]
+  void aim_at(double target);
 
   /// The controller's last one; all 0 before the first.
   const hal::Drive& answer() const { return answer_; }

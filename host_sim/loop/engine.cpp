@@ -63,6 +63,7 @@ PlantPeriod Engine::move(double amplitude_N, double bias_N) {
   const double undriven_N_s = friction_N_ * energy.undriven_s;
   if ((period.whole || period.frequency_Hz == 0.0) && undriven_N_s > 0.0) {
     period.friction_ratio = energy.resistance_impulse_N_s / undriven_N_s;
+    period.friction_force_N = energy.resistance_impulse_N_s / energy.duration_s;
   }
   // Of a period that is cut short there is no fundamental.
   if (scene_.demodulates() && period.whole) {

@@ -96,8 +96,8 @@ void SteppedScene::advance(const Inputs& inputs) {
     period.vibration_m_per_s = {inputs.seen.vibration_in_phase_m_per_s,
                                 inputs.seen.vibration_quadrature_m_per_s};
   }
-  if (port_ && inputs.target_friction_ratio > 0.0) {
-    engine_.control()->aim_at(inputs.target_friction_ratio);
+  if (port_ && inputs.target > 0.0) {
+    engine_.control()->aim_at(inputs.target);
   }
   engine_.conclude(period);
   if (port_) {

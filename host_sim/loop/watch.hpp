@@ -19,6 +19,7 @@ struct Period {
   double end_s = 0.0;
   /// ρ, see PowerRatios; NaN without friction, and of a carrier period that is cut short.
   double friction_ratio = undefined;
+  double friction_force_N = undefined;  ///< its mean along the sliding; NaN where ρ is
   double begin_velocity_m_per_s = 0.0;  ///< sliding
   double end_velocity_m_per_s = 0.0;
   double begin_load_displacement_m = 0.0;  ///< 0 without a load
@@ -37,9 +38,11 @@ struct Period {
   double natural_Hz = 0.0;  ///< of the plant without its damping, in the middle of the period
   /// Velocity that the controller means to hold; NaN where it holds none.
   double wanted_vibration_m_per_s = undefined;
-  double target = undefined;                    ///< that its drive was picked for; NaN in open loop
-  control::State state = control::State::off;   ///< of the command in force during it
-  control::Limit limit = control::Limit::none;  ///< likewise
+  double target =
+      undefined;  ///< that its drive was picked for: ρ, or a force [N]; NaN in open loop
+  double target_ratio = undefined;                          ///< ρ that it means to the controller
+  control::State state = control::State::off;               ///< of the command in force during it
+  control::Limit limit = control::Limit::none;              ///< likewise
   control::Settling settling = control::Settling::pending;  ///< likewise
   double commanded_ratio = undefined;  ///< likewise: friction ratio, target and feedback together
 };

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
@@ -27,6 +28,11 @@ namespace {
 const configure::Experiment& usable(const configure::Experiment& experiment) {
   loop::require_usable(experiment.plant, loop::Kind::loop);
   loop::require_constant_carrier(experiment.plant);
+  if (experiment.plant.controller && experiment.plant.controller->holds_force()) {
+    throw configure::ConfigurationError(
+        "controller.target_friction_force_N",
+        "a Loop wants friction ratios and rewards them; allowed: target_friction_ratio");
+  }
   return experiment;
 }
 
@@ -64,7 +70,7 @@ class Loop {
           "target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
     }
     loop::Inputs inputs;
-    inputs.target_friction_ratio = target;
+    inputs.target = target;
     wanted_ratio_ = coming_ratio();
     engine_->advance(inputs);
     ++periods_;

@@ -98,13 +98,17 @@ std::string simulate(const experiment::Experiment& experiment, Recorded& recorde
   return report::summary_text(experiment, result, findings);
 }
 
-py::dict periods_of(const Recorded& recorded, const py::object& owner) {
+/// @param of_force  a friction force is the target
+py::dict periods_of(const Recorded& recorded, bool of_force, const py::object& owner) {
   using loop::Period;
   const std::vector<Period>& rows = recorded.periods.periods;
   py::dict columns;
   columns["time_s"] = column(rows, &Period::begin_s, owner);
   columns["friction_ratio"] = column(rows, &Period::friction_ratio, owner);
-  columns["target"] = column(rows, &Period::target, owner);
+  if (of_force) {
+    columns["friction_force_N"] = column(rows, &Period::friction_force_N, owner);
+  }
+  columns[of_force ? "target_force_N" : "target"] = column(rows, &Period::target, owner);
   if (!recorded.drive_amplitude_V.empty()) {
     columns["drive_amplitude_V"] = column(recorded.drive_amplitude_V, owner);
   }
@@ -160,8 +164,9 @@ py::tuple run(const Scene& scene) {
   const Recorded& kept = *recorded;
   const py::capsule owner(recorded.release(),
                           [](void* all) { delete static_cast<Recorded*>(all); });
-  return py::make_tuple(summary, periods_of(kept, owner),
-                        trace_of(kept, scene.experiment.plant.run.record, owner));
+  return py::make_tuple(
+      summary, periods_of(kept, report::target_unit(scene.experiment.plant).is_force(), owner),
+      trace_of(kept, scene.experiment.plant.run.record, owner));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class ControllerUnit {
   explicit ControllerUnit(configure::Experiment experiment)
       : experiment_(with_controller(std::move(experiment))),
         port_(loop::make_control_port(scene(), *experiment_.design)) {
-    set_target(scene().controller->target_friction_ratio.front().friction_ratio);
+    set_target(scene().controller->targets().front().value);
   }
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no
@@ -60,14 +60,17 @@ class ControllerUnit {
   const hal::ResonantDrive& answer() const { return answer_; }
 
   double target() const { return target_; }
-  /// @throws std::invalid_argument  it is not in (0, 1]
-  void set_target(double friction_ratio) {
-    if (!(friction_ratio > 0.0 && friction_ratio <= 1.0)) {
-      throw std::invalid_argument(fmt::format(
-          "target is {}; allowed: a friction ratio above 0, at most 1", friction_ratio));
+  /// @throws std::invalid_argument  it is not in (0, Scene::highest_target()]
+  void set_target(double target) {
+    if (!(target > 0.0 && target <= scene().highest_target())) {
+      throw std::invalid_argument(
+          scene().controller->holds_force()
+              ? fmt::format("target is {}; allowed: a friction force above 0, at most {} N", target,
+                            scene().highest_target())
+              : fmt::format("target is {}; allowed: a friction ratio above 0, at most 1", target));
     }
-    target_ = friction_ratio;
-    port_->set_target(friction_ratio);
+    target_ = target;
+    port_->set_target(target);
   }
 
   bool observes_vibration() const { return scene().sensor.vibration.has_value(); }
@@ -250,11 +253,12 @@ void add_unit(py::module_& module) {
       "state, limit, fault, settling; frequency_steps of a resonant unit.");
   unit.def_property(
       "target", [](const Unit& self) { return self.controller.target(); },
-      [](Unit& self, double ratio) {
+      [](Unit& self, double target) {
         const InUse use(self.used);
-        self.controller.set_target(ratio);
+        self.controller.set_target(target);
       },
-      "Target friction ratio, above 0, at most 1.");
+      "Target friction ratio, above 0, at most 1; of a scene with target_friction_force_N a force\n"
+      "[N], at most force_full_scale_N.");
   unit.def_property_readonly(
       "force_full_scale_N", [](const Unit& self) { return self.controller.scales().force_N; },
       "Friction force of code 2**31 [N].");

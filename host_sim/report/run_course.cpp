@@ -69,19 +69,28 @@ output::Section course_section(const scene::Scene& scene, const Course::Curve& c
                        std::vector<output::Curve> curves) {
     section.charts.push_back(course_chart(title, note, label, time, std::move(curves)));
   };
+  const TargetUnit unit_of_target = target_unit(scene);
+  std::vector<output::Curve> held;
+  if (scene.controller) {
+    const double half_width = scene.run.settling_band * unit_of_target.size;
+    output::Curve target = series("target", Course::target);
+    target.pen = target_pen;
+    output::Curve band = target;
+    band.label = fmt::format("target \u00b1 {:.3g}{}, in which it is settled", half_width,
+                             unit_of_target.is_force() ? " N" : "");
+    band.line = Line::band;
+    band.half_width.assign(time.size(), half_width);
+    held.push_back(std::move(band));
+    held.push_back(std::move(target));
+  }
+  if (unit_of_target.is_force()) {
+    held.push_back(series("reached", Course::friction_force_N));
+    add("Friction force", "Mean over a carrier period, along the sliding.", "Friction force [N]",
+        std::move(held));
+    held.clear();
+  }
   if (scene.friction.largest_limit_N() > 0.0) {
-    std::vector<output::Curve> ratios;
-    if (scene.controller) {
-      output::Curve target = series("target", Course::target);
-      target.pen = target_pen;
-      output::Curve band = target;
-      band.label =
-          fmt::format("target \u00b1 {:.3g}, in which it is settled", scene.run.settling_band);
-      band.line = Line::band;
-      band.half_width.assign(time.size(), scene.run.settling_band);
-      ratios.push_back(std::move(band));
-      ratios.push_back(std::move(target));
-    }
+    std::vector<output::Curve> ratios = std::move(held);
     ratios.push_back(series("reached", Course::friction_ratio));
     add("Friction ratio",
         "Mean friction force over a carrier period, divided by the undriven one at that "

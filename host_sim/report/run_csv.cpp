@@ -61,11 +61,12 @@ void RepeatingNumber::append_to(fmt::memory_buffer& row, double value) {
   row.append(text_.begin(), text_.end());
 }
 
-PeriodsCsv::PeriodsCsv(CsvFile file, const AmplitudeUnit& unit, bool biased)
-    : file_(std::move(file)), unit_(unit), biased_(biased) {
+PeriodsCsv::PeriodsCsv(CsvFile file, const AmplitudeUnit& unit, bool of_force, bool biased)
+    : file_(std::move(file)), unit_(unit), of_force_(of_force), biased_(biased) {
   fmt::format_to(std::back_inserter(file_.row()),
-                 "time_s,friction_ratio,target,drive_amplitude_{},sliding_velocity_m_per_s,limit{}",
-                 unit.name, biased ? ",bias_N" : "");
+                 "time_s,friction_ratio,{},drive_amplitude_{},sliding_velocity_m_per_s,limit{}",
+                 of_force ? "friction_force_N,target_force_N" : "target", unit.name,
+                 biased ? ",bias_N" : "");
   file_.finish_row();
 }
 
@@ -75,6 +76,10 @@ void PeriodsCsv::take(const loop::Period& period) {
   row.push_back(',');
   append(row, period.friction_ratio);
   row.push_back(',');
+  if (of_force_) {
+    append(row, period.friction_force_N);
+    row.push_back(',');
+  }
   target_.append_to(row, period.target);
   row.push_back(',');
   drive_amplitude_.append_to(row, period.drive_amplitude_N * unit_.per_N);

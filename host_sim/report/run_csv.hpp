@@ -43,13 +43,15 @@ class RepeatingNumber {
 /// periods.csv: one row for each carrier period; numbers as short as they can be read back.
 class PeriodsCsv final : public loop::PeriodSink {
  public:
-  /// @param biased  with a column of the bias
-  PeriodsCsv(CsvFile file, const AmplitudeUnit& unit, bool biased);
+  /// @param of_force  a friction force is the target, and has a column
+  /// @param biased    with a column of the bias
+  PeriodsCsv(CsvFile file, const AmplitudeUnit& unit, bool of_force, bool biased);
   void take(const loop::Period& period) override;
 
  private:
   CsvFile file_;
   AmplitudeUnit unit_;
+  bool of_force_;
   bool biased_;
   RepeatingNumber target_;
   RepeatingNumber drive_amplitude_;

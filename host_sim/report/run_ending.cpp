@@ -103,9 +103,9 @@ output::Section close_up_section(const scene::Scene& scene, const loop::Recordin
 
   output::Section section{"Start", "The first carrier periods.", {}};
   if (scene.controller) {
-    const scene::TargetStep& step = scene.controller->target_friction_ratio[index];
-    section.title =
-        fmt::format("Step to {:.3g} at {:.6g} ms", step.friction_ratio, step.time_s * 1e3);
+    const scene::TargetStep& step = scene.controller->targets()[index];
+    section.title = fmt::format("Step to {:.3g}{} at {:.6g} ms", step.value,
+                                scene.controller->holds_force() ? " N" : "", step.time_s * 1e3);
     section.text = "The carrier periods around the step.";
   }
   const std::string group = fmt::format("close_up_{}", index);

@@ -23,6 +23,7 @@ class Course final : public loop::PeriodSink {
  public:
   enum Ordinate {
     friction_ratio,
+    friction_force_N,
     target,
     drive_amplitude_N,
     sliding_velocity_m_per_s,

@@ -86,19 +86,25 @@ void add_vibration(const report::StepMetrics& step, ordered_json& json) {
   }
 }
 
-ordered_json step(const report::StepMetrics& metrics, const AmplitudeUnit& unit) {
-  ordered_json json = {{"time_s", metrics.time_s},
-                       {"target", metrics.target},
-                       {"settling_time_s", output::json_number(metrics.settling_time_s)},
-                       {"overshoot", output::json_number(metrics.overshoot)},
-                       {"steady_error", output::json_number(metrics.steady_error)},
-                       {"ripple", output::json_number(metrics.ripple)},
-                       {fmt::format("drive_amplitude_{}", unit.name),
-                        output::json_number(metrics.drive_amplitude_N * unit.per_N)},
-                       {"limit", limit_name(metrics.limit)},
-                       {"limit_seen_by", limit_seen_by(metrics)},
-                       {"cause", cause(metrics)},
-                       {"mismatch", output::json_number(metrics.mismatch)}};
+ordered_json step(const report::StepMetrics& metrics, const TargetUnit& target,
+                  const AmplitudeUnit& unit) {
+  const auto held = [&target](const char* name) {
+    return fmt::format("{}{}", name, target.suffix);
+  };
+  const auto sized = [&target](double part) { return output::json_number(part * target.size); };
+  ordered_json json = {
+      {"time_s", metrics.time_s},
+      {target.is_force() ? "target_force_N" : "target", metrics.target * target.size},
+      {"settling_time_s", output::json_number(metrics.settling_time_s)},
+      {held("overshoot"), sized(metrics.overshoot)},
+      {held("steady_error"), sized(metrics.steady_error)},
+      {held("ripple"), sized(metrics.ripple)},
+      {fmt::format("drive_amplitude_{}", unit.name),
+       output::json_number(metrics.drive_amplitude_N * unit.per_N)},
+      {"limit", limit_name(metrics.limit)},
+      {"limit_seen_by", limit_seen_by(metrics)},
+      {"cause", cause(metrics)},
+      {"mismatch", output::json_number(metrics.mismatch)}};
   add_vibration(metrics, json);
   return json;
 }
@@ -155,10 +161,12 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
   const loop::ControlRecord& record = *result.control;
   const configure::ControlDesign& design = record.design;
+  const TargetUnit target = target_unit(scene);
   ordered_json steps = ordered_json::array();
   for (const report::StepMetrics& metrics : findings.steps()) {
-    steps.push_back(step(metrics, amplitude_unit(scene)));
+    steps.push_back(step(metrics, target, amplitude_unit(scene)));
   }
+  const std::optional<double> tracking_error = findings.largest_tracking_error();
   ordered_json faults = ordered_json::array();
   for (const loop::FaultEvent& event : record.faults) {
     faults.push_back({{"time_s", event.time_s}, {"cause", fault_name(event.fault)}});
@@ -176,7 +184,9 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"limited_periods", limited_periods(findings.course())},
       {"faults", faults},
       {"steps", steps},
-      {"largest_tracking_error", output::json_number(findings.largest_tracking_error())},
+      {fmt::format("largest_tracking_error{}", target.suffix),
+       output::json_number(tracking_error ? std::optional(*tracking_error * target.size)
+                                          : std::nullopt)},
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals},
@@ -296,7 +306,7 @@ RunReport::RunReport(const std::filesystem::path& out, const configure::Experime
   const scene::Scene& scene = experiment.plant;
   if (!scene.run.record.empty()) {
     periods_.emplace(CsvFile(folder_.open(periods_file)), amplitude_unit(scene),
-                     scene.drive && scene.drive->bias_limit_N > 0.0);
+                     target_unit(scene).is_force(), scene.drive && scene.drive->bias_limit_N > 0.0);
     trace_.emplace(CsvFile(folder_.open(trace_file)), scene.run.record);
   } else {
     folder_.withdraw(periods_file);
@@ -356,12 +366,14 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
         "from there\n",
         calibration_s * 1e3);
   }
-  text += fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from", "target",
-                      "settles in", "error", "ripple", "drive", "limit");
+  const TargetUnit target = target_unit(scene);
+  text += fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from",
+                      held_head(target, "target"), "settles in", held_head(target, "error"),
+                      held_head(target, "ripple"), "drive", "limit");
   for (const report::StepMetrics& step : findings.steps()) {
-    text += fmt::format("{:>8.3f} ms {:>7.3f} {:>11} {:>10} {:>8} {:>8} {}  {}\n",
-                        step.time_s * 1e3, step.target, settling(step.settling_time_s),
-                        figure("{:+.5f}", step.steady_error), figure("{:.5f}", step.ripple),
+    text += fmt::format("{:>8.3f} ms {:>7} {:>11} {:>10} {:>8} {:>8} {}  {}\n", step.time_s * 1e3,
+                        target_figure(target, step.target), settling(step.settling_time_s),
+                        error_figure(target, step.steady_error), width_figure(target, step.ripple),
                         figure("{:.1f}", step.drive_amplitude_N * unit.per_N), unit.name,
                         limit_text(step));
   }

@@ -13,16 +13,18 @@
 namespace sonoglide::report {
 output::Table step_table(const scene::Scene& scene, const RunFindings& findings) {
   const AmplitudeUnit unit = amplitude_unit(scene);
+  const TargetUnit target = target_unit(scene);
   output::Table table{"Target steps",
-                      {"From [ms]", "Target", "Settles in [µs]", "Overshoot", "Steady error",
-                       "Ripple", fmt::format("Drive [{}]", unit.name), "Limit"},
+                      {"From [ms]", held_head(target, "Target"), "Settles in [µs]",
+                       held_head(target, "Overshoot"), held_head(target, "Steady error"),
+                       held_head(target, "Ripple"), fmt::format("Drive [{}]", unit.name), "Limit"},
                       {}};
   for (const report::StepMetrics& step : findings.steps()) {
     table.rows.push_back(
-        {fmt::format("{:.3f}", step.time_s * 1e3), fmt::format("{:.3f}", step.target),
+        {fmt::format("{:.3f}", step.time_s * 1e3), target_figure(target, step.target),
          step.settling_time_s ? fmt::format("{:.1f}", *step.settling_time_s * 1e6) : "never",
-         figure("{:.5f}", step.overshoot), figure("{:+.5f}", step.steady_error),
-         figure("{:.5f}", step.ripple), figure("{:.1f}", step.drive_amplitude_N * unit.per_N),
+         width_figure(target, step.overshoot), error_figure(target, step.steady_error),
+         width_figure(target, step.ripple), figure("{:.1f}", step.drive_amplitude_N * unit.per_N),
          limit_text(step)});
   }
   return table;

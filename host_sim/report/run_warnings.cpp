@@ -58,18 +58,22 @@ void append_drive_limit(const scene::Scene& scene, const loop::ControlRecord& co
 void append_unsettled(const scene::Scene& scene, const RunFindings& findings,
                       std::vector<std::string>& warnings) {
   constexpr std::size_t most_told = 12;
+  const TargetUnit unit = target_unit(scene);
+  const char* const newtons = unit.is_force() ? " N" : "";
   std::size_t unsettled = 0;
   for (const StepMetrics& step : findings.steps()) {
     if (step.settling_time_s || ++unsettled > most_told) {
       continue;
     }
     warnings.push_back(fmt::format(
-        "The step to {:.3g} at {:.6g} ms never settles: the friction ratio does not stay within "
-        "{:.3g} of the target{}. Limit: {}.",
-        step.target, step.time_s * 1e3, scene.run.settling_band,
+        "The step to {:.3g}{} at {:.6g} ms never settles: the friction {} does not stay within "
+        "{:.3g}{} of the target{}. Limit: {}.",
+        step.target * unit.size, newtons, step.time_s * 1e3, unit.is_force() ? "force" : "ratio",
+        scene.run.settling_band * unit.size, newtons,
         std::isnan(step.steady_error)
             ? ""
-            : fmt::format(" (mean of the last quarter {:.4g})", step.target + step.steady_error),
+            : fmt::format(" (mean of the last quarter {:.4g}{})",
+                          (step.target + step.steady_error) * unit.size, newtons),
         limit_text(step)));
   }
   if (unsettled > most_told) {
@@ -159,7 +163,7 @@ std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunR
         "the time; the table of target steps leaves these periods out.",
         dips.pauses, dips.pauses == 1 ? "time" : "times", percent(dips.time_fraction)));
   }
-  if (scene.controller->target_friction_ratio.size() > findings.close_ups().size()) {
+  if (scene.controller->targets().size() > findings.close_ups().size()) {
     all.push_back(fmt::format("Close-ups are shown of the first {} target steps.",
                               findings.close_ups().size()));
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/report/step_metrics.hpp"
 #include "host_sim/steady/requirement.hpp"
 #include "host_sim/steady/self_excitation.hpp"
 
@@ -37,19 +38,21 @@ std::vector<std::string> self_excitation_notes(const scene::Scene& scene) {
   }
   std::vector<std::string> notes;
   std::set<std::pair<double, double>> told;
-  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
+  const TargetUnit unit = target_unit(scene);
+  for (const scene::TargetStep& step : scene.controller->targets()) {
     const double sliding_m_per_s = speed_m_per_s(scene, step.time_s);
-    if (!(sliding_m_per_s > 0.0) || !told.emplace(step.friction_ratio, sliding_m_per_s).second) {
+    const double ratio = step.value / unit.size;
+    if (!(sliding_m_per_s > 0.0) || !told.emplace(ratio, sliding_m_per_s).second) {
       continue;
     }
-    const steady::Requirement needed =
-        steady::require_ratio(scene, sliding_m_per_s, step.friction_ratio);
+    const steady::Requirement needed = steady::require_ratio(scene, sliding_m_per_s, ratio);
     if (needed.limit == steady::Obstacle::unstable) {
       notes.push_back(fmt::format(
-          "The target {:.4g} at {:.4g} m/s takes a drive of {:.4g} N, under which falling friction "
+          "The target {:.4g}{} at {:.4g} m/s takes a drive of {:.4g} N, under which falling friction "
           "feeds an oscillation. sonoglide stability {}.toml --self-excited tells the windows of the "
           "drive that quench it.",
-          step.friction_ratio, sliding_m_per_s, needed.unstable_force_N, scene.name));
+          step.value, unit.is_force() ? " N" : "", sliding_m_per_s, needed.unstable_force_N,
+          scene.name));
     }
   }
   return notes;

@@ -32,6 +32,7 @@ control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> 
 
 StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& design)
     : cursor_(scene),
+      unit_(target_unit(scene)),
       band_(scene.run.settling_band),
       tells_mismatch_(scene.sensor.force && design.maps_friction),
       senses_force_(scene.sensor.force),
@@ -93,11 +94,11 @@ void StepMeter::take_pause(const loop::Period& period) {
 }
 
 void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const {
-  const double error = period.friction_ratio - span.target;
+  const double error = unit_.held(period) - span.target;
   if (!(std::abs(error) <= band_)) {
     tally.settled_s = period.end_s;
   }
-  if (period.target == span.target) {  // else still driven for the target before
+  if (period.target / unit_.size == span.target) {  // else still driven for the target before
     tally.overshoot = std::max(tally.overshoot, span.target < span.previous ? -error : error);
   }
   constexpr double velocity_band = 0.02;
@@ -114,17 +115,18 @@ void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tal
   ++tally.periods;
 }
 
-void StepMeter::take_steady(const loop::Period& period, Tally& tally) {
-  tally.ratio_sum += period.friction_ratio;
+void StepMeter::take_steady(const loop::Period& period, Tally& tally) const {
+  const double held = unit_.held(period);
+  tally.held_sum += held;
   tally.drive_sum_N += period.drive_amplitude_N;
-  tally.lowest = std::min(tally.lowest, period.friction_ratio);
-  tally.highest = std::max(tally.highest, period.friction_ratio);
+  tally.lowest = std::min(tally.lowest, held);
+  tally.highest = std::max(tally.highest, held);
   ++tally.limit_count[static_cast<std::size_t>(period.limit)];
   tally.fault = tally.fault || period.state == control::State::fault;
   tally.open = tally.open || period.open_fraction > 0.0;
   if (period.settling == control::Settling::settled) {
     ++tally.settled_periods;
-    tally.mismatch_sum += period.commanded_ratio / period.target;
+    tally.mismatch_sum += period.commanded_ratio / period.target_ratio;
   }
   if (period.limit == control::Limit::not_settling) {
     tally.cause = period.settling;
@@ -159,7 +161,7 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
     metrics.settling_time_s = tally.settled_s - span.begin_s;
   }
   metrics.overshoot = tally.periods > 0 ? tally.overshoot : undefined;
-  metrics.steady_error = tally.ratio_sum / count - span.target;
+  metrics.steady_error = tally.held_sum / count - span.target;
   metrics.ripple = tally.lowest <= tally.highest ? 0.5 * (tally.highest - tally.lowest) : undefined;
   metrics.drive_amplitude_N = tally.drive_sum_N / count;
   metrics.limit = prevailing_limit(tally.limit_count, settled);
@@ -190,7 +192,7 @@ void StepMeter::name_unseen_limit(const TargetSpan& span, const Tally& tally,
                                   StepMetrics& metrics) const {
   const bool read_settled = 2 * tally.settled_periods > tally.steady_periods;
   const bool off = std::abs(metrics.steady_error) > band_;
-  const bool mismatch = (read_settled || holds_blindly(span, tally)) && off;
+  const bool mismatch = !unit_.is_force() && (read_settled || holds_blindly(span, tally)) && off;
   metrics.limit = mismatch ? control::Limit::mismatch : control::Limit::not_settling;
   metrics.limit_seen_by_controller = false;
   metrics.controller_undecided = senses_force_ && !read_settled;
@@ -268,7 +270,7 @@ bool is_free(const loop::Period& period) {
 }  // namespace
 
 TrackingMeter::TrackingMeter(const scene::Scene& scene, double speed_floor_m_per_s)
-    : cursor_(scene), speed_floor_m_per_s_(speed_floor_m_per_s) {}
+    : cursor_(scene), unit_(target_unit(scene)), speed_floor_m_per_s_(speed_floor_m_per_s) {}
 
 void TrackingMeter::take(const loop::Period& period) {
   const std::size_t index = cursor_.span_of(period);
@@ -287,7 +289,7 @@ void TrackingMeter::take(const loop::Period& period) {
   const double slowest_m_per_s =
       std::min(std::abs(period.begin_velocity_m_per_s), std::abs(period.end_velocity_m_per_s));
   if (free_periods_ > settling_periods && slowest_m_per_s >= speed_floor_m_per_s_) {
-    const double error = std::abs(period.friction_ratio - cursor_.spans()[index].target);
+    const double error = std::abs(unit_.held(period) - cursor_.spans()[index].target);
     largest_ = std::max(largest_.value_or(0.0), error);
   }
 }

@@ -15,6 +15,20 @@
 
 namespace sonoglide::report {
 
+/// In which a target, and what is held, are told.
+struct TargetUnit {
+  const char* name;    ///< "N", of a friction ratio ""
+  const char* suffix;  ///< of a key: "_N", of a friction ratio ""
+  double size;         ///< of 1: the friction limit at 0 s [N]; of a friction ratio 1
+
+  bool is_force() const { return *name != '\0'; }
+  /// What is held in a carrier period, in multiples of the size.
+  double held(const loop::Period& period) const {
+    return is_force() ? period.friction_force_N / size : period.friction_ratio;
+  }
+};
+TargetUnit target_unit(const scene::Scene& scene);
+
 // Which target a carrier period belongs to.
 
 /// The part of a run that belongs to one target.
@@ -23,7 +37,7 @@ struct TargetSpan {
   double begin_s;    ///< the later of that and the end of calibration
   double quarter_s;  ///< where the last quarter begins
   double end_s;
-  double target;
+  double target;    ///< as StepMetrics has it
   double previous;  ///< target, or undriven ratio, before
 };
 
@@ -71,6 +85,8 @@ struct ResonanceMetrics {
 /// One target step, or what calibration leaves of it. "Steady" means the last quarter. A figure for
 /// which there is no carrier period is NaN. Pauses in which the controller learns the friction force
 /// anew are left out; what they cost is in PauseMetrics.
+///
+/// Of a target force, target, band and all errors are over the friction limit at 0 s (TargetUnit).
 struct StepMetrics {
   double time_s = 0.0;
   double target = 0.0;
@@ -137,7 +153,7 @@ class StepMeter final : public loop::PeriodSink {
     std::uint64_t periods = 0;
     // Of the steady part:
     std::uint64_t steady_periods = 0;
-    double ratio_sum = 0.0;
+    double held_sum = 0.0;
     double drive_sum_N = 0.0;
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -std::numeric_limits<double>::infinity();
@@ -157,7 +173,7 @@ class StepMeter final : public loop::PeriodSink {
 
   void take_pause(const loop::Period& period);
   void take_any(const loop::Period& period, const TargetSpan& span, Tally& tally) const;
-  static void take_steady(const loop::Period& period, Tally& tally);
+  void take_steady(const loop::Period& period, Tally& tally) const;
   static bool stays(double since_s, const TargetSpan& span, const Tally& tally);
   bool holds_blindly(const TargetSpan& span, const Tally& tally) const;
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
@@ -169,6 +185,7 @@ class StepMeter final : public loop::PeriodSink {
   static ResonanceMetrics resonance_metrics(const Tally& tally);
 
   SpanCursor cursor_;
+  TargetUnit unit_;
   double band_;
   bool tells_mismatch_;
   bool senses_force_;
@@ -201,6 +218,7 @@ class TrackingMeter final : public loop::PeriodSink {
 
  private:
   SpanCursor cursor_;
+  TargetUnit unit_;
   double speed_floor_m_per_s_;
   std::size_t span_ = SpanCursor::none;
   int free_periods_ = 0;  ///< since the step, or since something but the speed floor was in the way

@@ -1,14 +1,22 @@
 #include "host_sim/report/step_metrics.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace sonoglide::report {
 
+TargetUnit target_unit(const scene::Scene& scene) {
+  return scene.controller && scene.controller->holds_force()
+             ? TargetUnit{"N", "_N", scene.friction.limit_N()}
+             : TargetUnit{"", "", 1.0};
+}
+
 std::vector<TargetSpan> target_spans(const scene::Scene& scene) {
   const scene::Controller& controller = *scene.controller;
-  const auto& steps = controller.target_friction_ratio;
+  const auto& steps = controller.targets();
+  const TargetUnit unit = target_unit(scene);
   std::vector<TargetSpan> spans;
-  double previous = 1.0;
+  double previous = unit.is_force() ? std::numeric_limits<double>::infinity() : 1.0;
   for (std::size_t i = 0; i < steps.size() && steps[i].time_s < scene.run.duration_s; ++i) {
     const double next_s = i + 1 < steps.size() ? steps[i + 1].time_s : scene.run.duration_s;
     const double end_s = std::min(next_s, scene.run.duration_s);
@@ -17,9 +25,9 @@ std::vector<TargetSpan> target_spans(const scene::Scene& scene) {
     // A calibration that reaches into the last quarter leaves less than one.
     spans.push_back({steps[i].time_s, begin_s,
                      begin_s <= quarter_s ? quarter_s : end_s - 0.25 * (end_s - begin_s), end_s,
-                     steps[i].friction_ratio, previous});
+                     steps[i].value / unit.size, previous});
     if (begin_s < end_s) {  // else calibration has swallowed the step
-      previous = steps[i].friction_ratio;
+      previous = steps[i].value / unit.size;
     }
   }
   return spans;

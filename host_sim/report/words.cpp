@@ -28,6 +28,22 @@ std::vector<double> AmplitudeUnit::of(std::vector<double> forces_N) const {
   return forces_N;
 }
 
+std::string target_figure(const TargetUnit& unit, double part) {
+  return unit.is_force() ? figure("{:.4g}", part * unit.size) : figure("{:.3f}", part);
+}
+
+std::string error_figure(const TargetUnit& unit, double part) {
+  return unit.is_force() ? figure("{:+.3g}", part * unit.size) : figure("{:+.5f}", part);
+}
+
+std::string width_figure(const TargetUnit& unit, double part) {
+  return unit.is_force() ? figure("{:.3g}", part * unit.size) : figure("{:.5f}", part);
+}
+
+std::string held_head(const TargetUnit& unit, const char* name) {
+  return unit.is_force() ? fmt::format("{} [{}]", name, unit.name) : name;
+}
+
 std::string limit_name(control::Limit limit) {
   return control::name(limit);
 }

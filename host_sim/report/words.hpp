@@ -33,6 +33,14 @@ struct AmplitudeUnit {
 };
 AmplitudeUnit amplitude_unit(const scene::Scene& scene);
 
+/// A target, and an error with and without its sign, from what StepMetrics has: a friction ratio with
+/// as many places as ever, a force to a few digits.
+std::string target_figure(const TargetUnit& unit, double part);
+std::string error_figure(const TargetUnit& unit, double part);
+std::string width_figure(const TargetUnit& unit, double part);
+/// The same as the head of a column: `error`, `error [N]`.
+std::string held_head(const TargetUnit& unit, const char* name);
+
 std::string limit_name(control::Limit limit);
 std::string fault_name(control::Fault fault);
 /// The limit of a target step, with its cause, how far belief and truth are apart, and whether only

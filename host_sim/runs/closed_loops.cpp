@@ -36,6 +36,7 @@ class RunningLoop {
     loop::PlantPeriod period = engine_.begun(engine_.control()->amplitude_N());
     period.mean_friction_force_N = mean_friction * scales_.friction_N;
     period.friction_ratio = sliding_m_per_s_ < 0.0 ? -mean_friction : mean_friction;
+    period.friction_force_N = period.friction_ratio * scales_.friction_N;
     period.begin_velocity_m_per_s = sliding_m_per_s_;
     period.end_velocity_m_per_s = sliding_m_per_s_;
     engine_.conclude(period);

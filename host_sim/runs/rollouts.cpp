@@ -36,11 +36,12 @@ void require_targets(const Rollout& rollout, std::size_t place) {
   }
   loop::require_usable(rollout.experiment.plant, loop::Kind::loop);
   loop::require_constant_carrier(rollout.experiment.plant);
+  const double most = rollout.experiment.plant.highest_target();
   for (std::size_t i = 0; i < periods; ++i) {
-    if (!(rollout.targets[i] >= 0.0 && rollout.targets[i] <= 1.0)) {
+    if (!(rollout.targets[i] >= 0.0 && rollout.targets[i] <= most)) {
       throw std::invalid_argument(
-          fmt::format("the target of rollout {} in carrier period {} is {}; allowed: 0 to 1", place,
-                      i, rollout.targets[i]));
+          fmt::format("the target of rollout {} in carrier period {} is {}; allowed: 0 to {}",
+                      place, i, rollout.targets[i], most));
     }
   }
 }
@@ -50,7 +51,7 @@ void step_through(const Rollout& rollout) {
   loop::Inputs inputs;
   const std::size_t periods = whole_periods(rollout.experiment.plant);
   for (std::size_t i = 0; i < periods; ++i) {
-    inputs.target_friction_ratio = rollout.targets[i];
+    inputs.target = rollout.targets[i];
     engine.advance(inputs);
     rollout.friction_ratios[i] = engine.plant().friction_ratio;
   }

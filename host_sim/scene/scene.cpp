@@ -70,6 +70,10 @@ double Scene::max_drive_force_N() const {
          (transducer ? transducer->force_N(drive->max_voltage_amplitude_V) : 0.0);
 }
 
+double Scene::highest_target() const {
+  return controller->holds_force() ? sensor.force_full_scale_N : 1.0;
+}
+
 double Scene::amplitude_step_N() const {
   return drive->bits ? std::ldexp(max_drive_force_N(), -*drive->bits) : 0.0;
 }

@@ -200,7 +200,7 @@ enum class Shaping { notch, robust, none };
 
 struct TargetStep {
   double time_s = 0.0;
-  double friction_ratio = 0.0;
+  double value = 0.0;  ///< friction ratio, or force [N]
 };
 
 /// How a controller holds the vibration that it observes. resonant: at the plant's resonance, which
@@ -221,7 +221,9 @@ struct Controller {
   int every_periods = 1;                             ///< carrier periods in a step
   std::optional<VibrationControl> vibration;         ///< absent: fed forward, without observing it
   std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
+  // One of the two:
   std::vector<TargetStep> target_friction_ratio;
+  std::vector<TargetStep> target_friction_force_N;
   std::optional<FrictionSource> friction;  ///< absent: as calibration_s says
   std::optional<double> calibration_s;     ///< absent: what suits the design, or 0
   /// Absent: of a drive whose amplitude passes linearly, what suits the design.
@@ -231,6 +233,12 @@ struct Controller {
   double standstill_hold_s = 0.02;            ///< for which the drive is held below the speed floor
   std::optional<double> relearn_every_s;      ///< absent: the friction force is not learnt again
   double mismatch_warning = 1.25;  ///< believed over true friction, or its inverse, that is named
+
+  /// A friction force is the target, not a ratio.
+  bool holds_force() const { return !target_friction_force_N.empty(); }
+  const std::vector<TargetStep>& targets() const {
+    return holds_force() ? target_friction_force_N : target_friction_ratio;
+  }
 };
 
 /// What the vibration is seen by: a pick-up of its velocity, or the transducer's current less that
@@ -310,6 +318,8 @@ struct Scene {
   double drive_force_N() const;
   /// The largest that its actuator gives in closed loop.
   double max_drive_force_N() const;
+  /// That a target can have in closed loop: a ratio of 1, or the force that the sensor reads at most.
+  double highest_target() const;
   /// Between two amplitudes that it gives; 0: any.
   double amplitude_step_N() const;
 

@@ -111,6 +111,24 @@ void check_sensing(const TableCursor& cursor, const scene::Scene& so_far) {
   }
 }
 
+/// No vibration raises the friction.
+void check_target_force(const TableCursor& cursor, const scene::Scene& so_far) {
+  const double most_N = so_far.friction.largest_limit_N();
+  for (const scene::TargetStep& step : so_far.controller->target_friction_force_N) {
+    if (step.value > most_N) {
+      cursor.fail("target_friction_force_N",
+                  fmt::format("{:g} N is more than the friction, which is {:g} N at most; allowed: "
+                              "above 0, at most {} N",
+                              step.value, most_N, scene::at_most(most_N)));
+    }
+  }
+  if (so_far.controller->friction == scene::FrictionSource::tracked) {
+    cursor.fail("friction",
+                "\"tracked\" is not for target_friction_force_N, where feedback holds the force "
+                "whatever the friction; allowed: \"trusted\", \"calibrated\"");
+  }
+}
+
 }  // namespace
 
 void check_controller(const TableCursor& cursor, const Variant& variant, scene::Scene& scene) {
@@ -124,10 +142,13 @@ void check_controller(const TableCursor& cursor, const Variant& variant, scene::
   if (scene.drive->interpolation == scene::Interpolation::linear && !cursor.has("shaping")) {
     controller.shaping.reset();
   }
-  const double first_s = controller.target_friction_ratio.front().time_s;
+  const double first_s = controller.targets().front().time_s;
   if (first_s != 0.0) {
-    cursor.fail("target_friction_ratio",
+    cursor.fail(controller.holds_force() ? "target_friction_force_N" : "target_friction_ratio",
                 fmt::format("begins at {} s; allowed: a first time of 0 s", first_s));
+  }
+  if (controller.holds_force()) {
+    check_target_force(cursor, scene);
   }
   if (controller.vibration) {
     check_vibration_control(cursor, variant, scene);
@@ -140,6 +161,12 @@ void check_controller(const TableCursor& cursor, const Variant& variant, scene::
 }
 
 void check_sensor(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
+  if (scene.controller && scene.controller->holds_force() && !scene.sensor.force) {
+    cursor.fail(
+        "force",
+        "false, but feedback on the force holds controller.target_friction_force_N; allowed: "
+        "true, or a target_friction_ratio");
+  }
   if (scene.controller && scene.controller->vibration) {
     check_sensing(cursor, scene);
   }

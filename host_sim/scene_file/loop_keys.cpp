@@ -115,7 +115,8 @@ std::vector<Key> run_keys() {
       {"settling_band", of_run<&Run::settling_band>, Number{{0.0, 1.0, "", true}},
        run.settling_band,
        "half width of the band around a target, in friction ratio; a step settles when the "
-       "ratio enters the band for good, and never if it leaves it in the last tenth of the step",
+       "ratio enters the band for good, and never if it leaves it in the last tenth of the step. Of a "
+       "target force: times the friction limit at 0 s",
        uses::closed_loop},
       {"record", of_run<&Run::record>, WordList{words_of(scene::channels)},
        Rule{"nothing is recorded"}, "channels that trace.csv records"},
@@ -148,8 +149,15 @@ std::vector<Key> controller_keys() {
        "of it",
        uses::resonance(uses::in_another_mode)},
       {"target_friction_ratio", of_controller<&Controller::target_friction_ratio>,
-       Profile{time_range, {0.0, 1.0, "", true}}, Required{},
-       "target friction ratio, constant from each time to the next; the first time is 0"},
+       Profile{time_range, {0.0, 1.0, "", true}}, Instead{"target_friction_force_N"},
+       "target friction ratio, constant from each time to the next; the first time is 0",
+       uses::always, "target_friction_force_N"},
+      {"target_friction_force_N", of_controller<&Controller::target_friction_force_N>,
+       Profile{time_range, {0.0, largest_force_N, "N", true}}, Instead{"target_friction_ratio"},
+       "target of the mean friction force along the sliding, constant from each time to the next; the "
+       "first time is 0. Feedback acts on the force itself, so that the friction may be believed wrong, "
+       "and may change. At most the friction that the scene has",
+       uses::needed_force_sensor},
       {"every_periods", of_controller<&Controller::every_periods>, Integer{1, 16, "periods"},
        static_cast<double>(controller.every_periods),
        "carrier periods in a step of the controller, for a processor that is too slow for one in each: it "
@@ -199,12 +207,12 @@ std::vector<Key> controller_keys() {
       {"relearn_every_s", of_controller<&Controller::relearn_every_s>, Number{{1e-9, 1e9, "s"}},
        Rule{"never"},
        "time between two pauses of the drive in which the friction force is calibrated again",
-       uses::force_sensor},
+       uses::force_sensor + uses::ratio_target},
       {"mismatch_warning", of_controller<&Controller::mismatch_warning>, Number{{1.01, 100.0}},
        controller.mismatch_warning,
        "the limit mismatch is reported once nominal over true friction, or its inverse, reaches "
        "this value",
-       uses::force_sensor},
+       uses::force_sensor + uses::ratio_target},
   };
 }
 

@@ -83,10 +83,9 @@ class Reading {
     constant.profile(scene_).push_back({0.0, real()});
   }
   void operator()(Of<std::vector<scene::TargetStep>> steps) const {
-    if (!given_) {
-      cursor_.fail_missing(key_.name, TableCursor::allowed_pairs);
+    if (given_) {
+      read_rows(steps(scene_), TableCursor::Times::rise);
     }
-    read_rows(steps(scene_), TableCursor::Times::rise);
   }
   void operator()(Periods periods) const {
     if (given_) {

@@ -130,6 +130,11 @@ inline const Uses robust_shaping = {
 inline const Uses force_sensor = {{"sensor.force = true",
                                    [](const Scene& scene) { return scene.sensor.force; },
                                    "with sensor.force = false", nullptr, "sensor"}};
+/// Of a key without which there is no target: its error is told by the sensor's table.
+inline const Uses needed_force_sensor = {{"sensor.force = true", is_closed, ""}};
+inline const Uses ratio_target = {
+    {"target_friction_ratio", [](const Scene& scene) { return !scene.controller->holds_force(); },
+     "with target_friction_force_N, where feedback holds the force whatever the friction"}};
 inline bool samples_force(const Scene& scene) {
   return scene.sensor.samples_per_period.has_value();
 }

@@ -24,7 +24,7 @@ namespace encoding = sonoglide::encoding;
 namespace hal = sonoglide::hal;
 
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].half_ratio,
+                                                        configuration::target_steps[0].target,
                                                         configuration::design,
                                                         configuration::step_period_s, 0);
 using Design = app::FieldDesign<configuration::Parts>;
@@ -59,7 +59,7 @@ class Run {
   Run()
       : supervisor_(design.controller_parameters(design.presets()), design.designed(), 0,
                     UINT32_MAX) {
-    supervisor_.set_target(design.half_target(400'000));
+    supervisor_.set_target(design.target(400'000));
   }
 
   Supervised& supervisor() { return supervisor_; }
@@ -149,10 +149,10 @@ bool act() {
     supervisor.order_restart(faults);
   } else if (chance < 28) {
     ordered_number = 100'000 + random_number() % 800'000;
-    supervisor.order_target(design.half_target(ordered_number), faults);
+    supervisor.order_target(design.target(ordered_number), faults);
   } else if (!shown.driving()) {
     ordered_number = 300'000 + random_number() % 700'000;
-    supervisor.order_parameters(parameters_with(ordered_number), design.half_target(400'000), 0);
+    supervisor.order_parameters(parameters_with(ordered_number), design.target(400'000), 0);
   }
   return whole;
 }
@@ -186,8 +186,7 @@ std::uint32_t replayed_hash() {
       const Event& event = events[next++];
       order.kind = event.kind;
       order.faults = event.faults;
-      order.half_ratio =
-          design.half_target(event.kind == Supervised::Kind::target ? event.number : 400'000);
+      order.target = design.target(event.kind == Supervised::Kind::target ? event.number : 400'000);
       if (event.kind == Supervised::Kind::parameters) {
         order.controller = Supervised::Controller(parameters_with(event.number));
       }

@@ -125,9 +125,9 @@ TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {
 
 TEST_P(Image, AnswersAnyConverterCodeAsTheHostDoes) {
   const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
-  const scene::TargetStep& target = scene_.controller->target_friction_ratio[0];
-  const scene::TargetStep& next_target = scene_.controller->target_friction_ratio[1];
-  host->set_target(target.friction_ratio);
+  const scene::TargetStep& target = scene_.controller->targets()[0];
+  const scene::TargetStep& next_target = scene_.controller->targets()[1];
+  host->set_target(target.value);
   std::mt19937 generator(1);
   const auto code = [&] { return static_cast<std::int32_t>(generator()); };
   const auto periods = static_cast<int>(next_target.time_s * scene_.drive->frequency_Hz) - 1;
@@ -180,7 +180,7 @@ class ObservingImage : public Image {};
 
 TEST_P(ObservingImage, AnswersAnyConverterCodeAsTheHostDoes) {
   const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
-  host->set_target(scene_.controller->target_friction_ratio[0].friction_ratio);
+  host->set_target(scene_.controller->targets()[0].value);
   std::mt19937 generator(1);
   const auto code = [&](int k) { return static_cast<std::int32_t>(generator()) >> (k % 12); };
   constexpr int periods = 100;
@@ -232,7 +232,7 @@ class BiasedImage : public Image {
 /// Plausible samples first, so that it drives; then any codes.
 TEST_P(BiasedImage, AnswersAnyConverterCodeAsTheHostDoes) {
   const auto host = loop::make_control_port(scene_, configure::design_control(scene_));
-  host->set_target(scene_.controller->target_friction_ratio[0].friction_ratio);
+  host->set_target(scene_.controller->targets()[0].value);
   const auto expected_of = [&](const hal::MotionSample& sample) {
     return scene_.sensor.vibration ? host->exchange_biased(sample)
                                    : host->exchange_biased(static_cast<const hal::Sample&>(sample));

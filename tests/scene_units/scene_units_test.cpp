@@ -61,10 +61,14 @@ void restart(UnitT& unit) {
 template <class Parts>
 class UnitPort : public loop::ControlPort {
  public:
-  explicit UnitPort(const FieldDesign<Parts>& design) : unit(design, pages_) { restart(unit); }
+  /// @param full_scale  of a target: 1 of a friction ratio, of a force that of its sensor [N]
+  UnitPort(const FieldDesign<Parts>& design, double full_scale)
+      : full_scale_(full_scale), unit(design, pages_) {
+    restart(unit);
+  }
 
-  void set_target(double friction_ratio) override {
-    const auto millionths = static_cast<std::uint32_t>(std::lround(1e6 * friction_ratio));
+  void set_target(double target) override {
+    const auto millionths = static_cast<std::uint32_t>(std::lround(1e6 * target / full_scale_));
     EXPECT_EQ(unit.set_target(millionths, unit.supervisor().faults().count()), Answer::taken);
   }
   hal::Drive exchange(const hal::Sample& sample) override {
@@ -75,6 +79,7 @@ class UnitPort : public loop::ControlPort {
 
  private:
   Pages pages_;
+  double full_scale_;
 
  public:
   Unit<Parts, Pages> unit;
@@ -114,16 +119,16 @@ void expect_unit_and_run_agree(const std::string& name, const FieldDesign<Parts>
   const auto control = loop::make_control_port(scene, configure::design_control(scene));
   Recorded run(*control);
   const loop::RunResult by_run = loop::run(scene, configure::design_control(scene), run);
-  UnitPort<Parts> port(design);
+  UnitPort<Parts> port(design, scene.highest_target());
   Recorded unit(port);
   const loop::RunResult by_unit = loop::run(scene, configure::design_control(scene), unit);
   expect_same(unit.drives, run.drives);
   EXPECT_EQ(by_unit.control->trace_hash, by_run.control->trace_hash);
   // After a stop and after a fault it is as one that has never run.
-  UnitPort<Parts> fresh(design);
+  UnitPort<Parts> fresh(design, scene.highest_target());
   fresh.unit.stop();
   pass(fresh.unit);
-  fresh.set_target(scene.controller->target_friction_ratio.back().friction_ratio);
+  fresh.set_target(scene.controller->targets().back().value);
   pass(fresh.unit);
   const Drives first = answers(fresh.unit, run.samples);
   port.unit.stop();
@@ -135,12 +140,12 @@ void expect_unit_and_run_agree(const std::string& name, const FieldDesign<Parts>
   expect_same(answers(port.unit, run.samples), first);
 }
 
-#define SONOGLIDE_TEST_OF_UNIT(name)                                                            \
-  constexpr FieldDesign<scene_##name::Parts> name(                                              \
-      scene_##name::parameters, scene_##name::target_steps[0].half_ratio, scene_##name::design, \
-      scene_##name::step_period_s, 0);                                                          \
-  TEST(UnitOfScene, name) {                                                                     \
-    expect_unit_and_run_agree(#name, name);                                                     \
+#define SONOGLIDE_TEST_OF_UNIT(name)                                                        \
+  constexpr FieldDesign<scene_##name::Parts> name(                                          \
+      scene_##name::parameters, scene_##name::target_steps[0].target, scene_##name::design, \
+      scene_##name::step_period_s, 0);                                                      \
+  TEST(UnitOfScene, name) {                                                                 \
+    expect_unit_and_run_agree(#name, name);                                                 \
   }
 
 SONOGLIDE_UNITS_OF_SCENES(SONOGLIDE_TEST_OF_UNIT)

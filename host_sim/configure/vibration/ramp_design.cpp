@@ -22,8 +22,8 @@ double largest_swing(const scene::Scene& scene, const NominalPlant& plant,
   const FrictionReading reading = friction_reading(scene, plant, design.scales.velocity_m_per_s);
   const VibrationMap map = design.vibration_map(design.friction_force * design.scales.force_N);
   double largest = 0.0;
-  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
-    const double velocity_m_per_s = map.velocity_m_per_s(step.friction_ratio, sliding_m_per_s);
+  for (const double target : plant.target_ratios(*scene.controller)) {
+    const double velocity_m_per_s = map.velocity_m_per_s(target, sliding_m_per_s);
     if (velocity_m_per_s > 0.0) {
       const double ratio = std::min(barely_sliding, sliding_m_per_s / velocity_m_per_s);
       largest = std::max(largest, ratio_swing(reading.contact(ratio, 0.0), rotation));

@@ -56,8 +56,8 @@ TargetVelocities target_velocities(const scene::Scene& scene, const NominalPlant
                          plant.contact_stiffness_N_per_m * most_m_per_s /
                              (start_rate_rad_per_s(scene) * plant.friction_N)};
   TargetVelocities velocities;
-  for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
-    const double velocity_m_per_s = map.velocity_m_per_s(step.friction_ratio, fastest_m_per_s);
+  for (const double target : plant.target_ratios(*scene.controller)) {
+    const double velocity_m_per_s = map.velocity_m_per_s(target, fastest_m_per_s);
     velocities.lowest_m_per_s = std::min(velocities.lowest_m_per_s, velocity_m_per_s);
     if (velocity_m_per_s > 0.0) {
       velocities.lowest_driven_m_per_s =

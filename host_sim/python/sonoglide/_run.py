@@ -67,7 +67,7 @@ class Run:
         return control["trace_hash"] if control else None
 
     def plot(self) -> matplotlib.figure.Figure:
-        """Friction ratio, target and drive amplitude over time, by matplotlib."""
+        """Friction ratio or force, target and drive amplitude over time, by matplotlib."""
         try:
             from matplotlib import pyplot
         except ImportError as error:
@@ -80,10 +80,12 @@ class Run:
             )
         figure, (ratio, drive) = pyplot.subplots(2, sharex=True, height_ratios=(2, 1))
         time_ms = periods["time_s"] * 1e3
-        ratio.plot(time_ms, periods["friction_ratio"], label="friction ratio")
+        of_force = "target_force_N" in periods
+        held = "friction force [N]" if of_force else "friction ratio"
+        ratio.plot(time_ms, periods["friction_force_N" if of_force else "friction_ratio"], label=held)
         if self.trace_hash is not None:
-            ratio.plot(time_ms, periods["target"], "--", label="target")
-        ratio.set_ylabel("friction ratio")
+            ratio.plot(time_ms, periods["target_force_N" if of_force else "target"], "--", label="target")
+        ratio.set_ylabel(held)
         ratio.legend()
         unit = "V" if "drive_amplitude_V" in periods else "N"
         amplitude = periods[f"drive_amplitude_{unit}"]
@@ -114,7 +116,10 @@ class Run:
         if self.trace_hash is None:
             return facts
         control = self.summary["control"]
-        names = ("time_s", "target", "settling_time_s", "steady_error", "ripple", "limit")
+        held = ("target_force_N", "steady_error_N", "ripple_N")
+        if not control["steps"] or held[0] not in control["steps"][0]:
+            held = ("target", "steady_error", "ripple")
+        names = ("time_s", held[0], "settling_time_s", held[1], held[2], "limit")
         steps = [[step.get(name) for name in names] for step in control["steps"]]
         faults = ", ".join(map(str, control["faults"])) or "none"
         return facts + _html.table(f"Steps; faults: {faults}", names, steps)

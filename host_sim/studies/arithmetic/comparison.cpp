@@ -79,7 +79,12 @@ configure::Experiment in_arithmetic(configure::Experiment experiment,
 }
 
 configure::Experiment at_target(configure::Experiment experiment, double target) {
-  experiment.plant.controller.value().target_friction_ratio = {{0.0, target}};
+  scene::Controller& controller = experiment.plant.controller.value();
+  if (controller.holds_force()) {
+    controller.target_friction_force_N = {{0.0, target * experiment.plant.friction.limit_N()}};
+  } else {
+    controller.target_friction_ratio = {{0.0, target}};
+  }
   return experiment;
 }
 

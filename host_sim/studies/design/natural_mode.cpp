@@ -47,6 +47,7 @@ scene::Scene trial(scene::Scene scene, const std::vector<double>& ratios, double
   scene.sliding.profile = {{0.0, sliding_m_per_s}};
   scene.run.record.clear();
   scene.run.window_start_s = 0.0;
+  scene.controller->target_friction_force_N.clear();
   auto& targets = scene.controller->target_friction_ratio;
   targets.clear();
   // From rest to the strongest drive, and on: the largest change comes first.
@@ -140,7 +141,7 @@ CarrierPoint carrier_point(const scene::Scene& nominal, const NaturalModeStudy& 
   point.from_multiple = std::abs(point.mode_per_carrier - std::round(point.mode_per_carrier));
   const auto& targets = nominal.controller->target_friction_ratio;
   try {
-    point.reachable = has_force(configure::design_control(nominal), targets.front().friction_ratio,
+    point.reachable = has_force(configure::design_control(nominal), targets.front().value,
                                 nominal.sliding.profile.front().velocity_m_per_s);
   } catch (const configure::ConfigurationError&) {
     point.reachable = false;

@@ -8,6 +8,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -41,15 +42,6 @@ void require_steady_vibration(const scene::Scene& scene) {
     throw configure::ConfigurationError(
         "drive.waveform", "the closed forms are those of a cosine; allowed: \"cosine\"");
   }
-}
-
-std::vector<double> targets(const scene::Controller& controller) {
-  std::vector<double> ratios;
-  ratios.reserve(controller.target_friction_ratio.size());
-  for (const scene::TargetStep& step : controller.target_friction_ratio) {
-    ratios.push_back(step.friction_ratio);
-  }
-  return ratios;
 }
 
 /// With any other alone there is no curve of force over speed.
@@ -114,12 +106,13 @@ Task make_task(const configure::Experiment& experiment, const std::vector<double
   const scene::Scene& scene = experiment.plant;
   require_steady_vibration(scene);
   const double floor_m_per_s = experiment.design->speed_floor_m_per_s();
-  Task task{scene,
-            experiment.nominal,
-            floor_m_per_s,
-            ratios.empty() ? targets(*scene.controller) : ratios,
-            speeds ? *speeds : speeds_of(scene, floor_m_per_s),
-            scene.resonant()};
+  Task task{
+      scene,
+      experiment.nominal,
+      floor_m_per_s,
+      ratios.empty() ? configure::nominal_plant(scene).target_ratios(*scene.controller) : ratios,
+      speeds ? *speeds : speeds_of(scene, floor_m_per_s),
+      scene.resonant()};
   if (task.at_resonance) {
     // The loop there is another one, of another carrier.
     task.scene.drive->frequency_Hz = resonance_Hz(scene.plant);

@@ -533,8 +533,47 @@ const std::vector<BrokenScene> broken_scenes = {
      "[drive]\nfrequency_Hz = 60e3\nmax_force_amplitude_N = 1920.0\n", "",
      "1:1: drive: missing; required: a table [drive] for the [controller] to act by"},
     {"missing_target", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]\n", "",
-     "15:2: controller.target_friction_ratio: missing; required: a list of pairs [[time in s, "
-     "number], …]"},
+     "15:2: controller.target_friction_ratio: missing; required: target_friction_ratio or "
+     "target_friction_force_N"},
+    {"two_targets", closed_loop, "target_friction_ratio",
+     "target_friction_force_N = [[0.0, 0.01]]\ntarget_friction_ratio",
+     "18:1: controller.target_friction_ratio: excludes target_friction_force_N; allowed: one of the "
+     "two"},
+    {"target_force_above_the_friction", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_friction_force_N = [[0.0, 0.02]]",
+     "17:27: controller.target_friction_force_N: 0.02 N is more than the friction, which is 0.01962 N "
+     "at most; allowed: above 0, at most 0.01962 N"},
+    {"target_force_of_zero", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_friction_force_N = [[0.0, 0]]",
+     "17:34: controller.target_friction_force_N[0][1]: 0 is out of range; allowed: above 0, at most "
+     "1e+12 N"},
+    {"target_force_late", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_friction_force_N = [[1e-4, 0.01]]",
+     "17:27: controller.target_friction_force_N: begins at 0.0001 s; allowed: a first time of 0 s"},
+    {"target_force_relearnt", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_friction_force_N = [[0.0, 0.01]]\nrelearn_every_s = 1e-3",
+     "18:1: controller.relearn_every_s: not used with target_friction_force_N, where feedback holds "
+     "the force whatever the friction; remove it"},
+    {"target_force_with_a_warning", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_friction_force_N = [[0.0, 0.01]]\nmismatch_warning = 1.1",
+     "18:1: controller.mismatch_warning: not used with target_friction_force_N, where feedback holds "
+     "the force whatever the friction; remove it"},
+    {"target_force_tracked", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_friction_force_N = [[0.0, 0.01]]\nfriction = \"tracked\"",
+     "18:12: controller.friction: \"tracked\" is not for target_friction_force_N, where feedback "
+     "holds the force whatever the friction; allowed: \"trusted\", \"calibrated\""},
+    {"target_force_without_a_sensor", damped_loop, "target_friction_ratio = [[0.0, 0.5]]\n[sensor]",
+     "target_friction_force_N = [[0.0, 0.01]]\n[sensor]\nforce = false",
+     "21:9: sensor.force: false, but feedback on the force holds controller.target_friction_force_N; "
+     "allowed: true, or a target_friction_ratio"},
+    {"target_force_that_is_not_read", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]\n[sensor]\nadc_bits = 12\n[model_error]\n",
+     "target_friction_force_N = [[0.0, 0.015]]\n[sensor]\nforce_full_scale_N = 0.012\n"
+     "[model_error]\ncoefficient = 0.5\n",
+     "17:27: controller.target_friction_force_N: 0.015 N is not below sensor.force_full_scale_N, 0.012 "
+     "N; allowed: at most 0.012 N"},
     {"missing_step", open_loop, "method = \"event_taylor\"\ntolerance = 1e-10", "method = \"rk4\"",
      "14:2: solver.step_s: missing; required: a number, 1e-15 to 1 s"},
     // Keys that the scene cannot use

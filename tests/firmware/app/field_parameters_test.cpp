@@ -71,7 +71,7 @@ TYPED_TEST(FieldParametersTest, UnchangedItIsTheDesignBitForBit) {
   EXPECT_EQ(parameters.regulator.hold_periods, TestFixture::designed.regulator.hold_periods);
   EXPECT_EQ(parameters.stuck.periods, TestFixture::designed.stuck.periods);
   EXPECT_TRUE(parameters.ceiling.highest == control::FullDrive<TypeParam>::highest());
-  EXPECT_TRUE(tested.half_target(333333) == this->real(1.0 / 6.0));
+  EXPECT_TRUE(tested.target(333333) == this->real(1.0 / 6.0));
 }
 
 TYPED_TEST(FieldParametersTest, EachParameterGoesWhereItSays) {
@@ -86,8 +86,8 @@ TYPED_TEST(FieldParametersTest, EachParameterGoesWhereItSays) {
               1.0 / 18.0, 1e-8);
   EXPECT_TRUE(parameters(Parameter::gain_scale, 0).regulator.gain == TypeParam{});
   EXPECT_EQ(parameters(Parameter::stuck_periods, 65535).stuck.periods, 65535);
-  EXPECT_TRUE(TestFixture::design.half_target(500000) == this->real(0.25));
-  EXPECT_TRUE(TestFixture::design.half_target(1000000) == half);
+  EXPECT_TRUE(TestFixture::design.target(500000) == this->real(0.25));
+  EXPECT_TRUE(TestFixture::design.target(1000000) == half);
 }
 
 // Every millionth, as if it had been written in a scene.
@@ -272,7 +272,7 @@ void expect_drive_within_its_limit() {
   }
   const auto parameters = design.controller_parameters(values);
   typename FieldDesign<Parts>::Controller controller(parameters);
-  controller.set_target(design.half_target(values[0]));
+  controller.set_target(design.target(values[0]));
   controller.start();
   const auto code = rc::gen::arbitrary<std::int32_t>();
   for (int i = 0; i < 50; ++i) {

@@ -147,7 +147,7 @@ TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
   PoweredUnit powered(flash);
   powered.start();
   for (const std::uint32_t target : {600000U, 123456U, 990000U}) {
-    EXPECT_EQ(powered.ask<link::TargetSet>(link::SetTarget{target}).ratio, target);
+    EXPECT_EQ(powered.ask<link::TargetSet>(link::SetTarget{target}).target, target);
     powered.serve(300);
     EXPECT_NEAR(powered.board.ratio(), target / 1e6, 1e-3);
     const link::Telemetry told = powered.telemetry();

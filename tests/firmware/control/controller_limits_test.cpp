@@ -56,7 +56,7 @@ template <class S>
 using LimitedDriveParts =
     Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
           NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>, NoRelearning<S>,
-          FedForward<S>, ForceSensor, DriveLimit<S>>;
+          FedForward<S>, ForceSensor, RatioTarget<S>, DriveLimit<S>>;
 
 TYPED_TEST(ControllerLimits, ADriveLimitIsNeverPassedAndNamedWhereItActs) {
   Design design;

@@ -55,7 +55,7 @@ ParameterValue parameter_value() {
 template <class Message>
 Message of_target() {
   Message message{};
-  message.ratio = 450000;
+  message.target = 450000;
   return message;
 }
 

@@ -123,7 +123,8 @@ template <class S>
 using EveryPart = control::Parts<
     S, control::LearntFriction<S>, control::DahlFeedforward<S>, control::SlewLimit<S>,
     control::NotchShaper<S, 4>, control::IntegralRegulator<S, 4>, control::PeriodicRelearning<S>,
-    control::FedForward<S>, control::ForceSensor, control::DriveLimit<S>, control::TolerantSamples>;
+    control::FedForward<S>, control::ForceSensor, control::ForceTarget<S>, control::DriveLimit<S>,
+    control::TolerantSamples>;
 
 template <class Scalar>
 class InitialiserOf : public testing::Test {};
@@ -133,7 +134,7 @@ TYPED_TEST_SUITE(InitialiserOf, Scalars);
 
 TYPED_TEST(InitialiserOf, WritesEveryParameterOfAController) {
   using Parameters = typename control::Controller<EveryPart<TypeParam>>::Parameters;
-  EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 38U);
+  EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 39U);
 }
 
 TYPED_TEST(InitialiserOf, WritesEveryTapOfARobustNotch) {

@@ -44,7 +44,8 @@ inline std::vector<loop::Period> made_up_run(const scene::Scene& scene,
     period.drive_amplitude_N = 100.0;
     for (const scene::TargetStep& step : scene.controller->target_friction_ratio) {
       if (step.time_s <= period.begin_s + 1e-9) {
-        period.target = step.friction_ratio;
+        period.target = step.value;
+        period.target_ratio = step.value;
       }
     }
     period.state = control::State::running;

@@ -186,7 +186,7 @@ TEST(ReaderTest, EveryKeyOfClosedLoop) {
   EXPECT_EQ(scene.controller->every_periods, 2);
   ASSERT_EQ(scene.controller->target_friction_ratio.size(), 2U);
   EXPECT_EQ(scene.controller->target_friction_ratio[1].time_s, 2e-3);
-  EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.6);
+  EXPECT_EQ(scene.controller->target_friction_ratio[1].value, 0.6);
   EXPECT_EQ(scene.controller->calibration_s, 0.5e-3);
   EXPECT_EQ(scene.controller->shaping, scene::Shaping::robust);
   EXPECT_EQ(scene.controller->shaping_range, 0.2);
@@ -253,7 +253,7 @@ TEST(ReaderTest, OverridesTakeTomlAndBareWords) {
             scene::Arithmetic::float64);
   const scene::Scene scene = read_text(
       shortest_closed_loop, "s", {"controller.target_friction_ratio=[[0, 0.3], [1e-3, 0.5]]"});
-  EXPECT_EQ(scene.controller->target_friction_ratio[1].friction_ratio, 0.5);
+  EXPECT_EQ(scene.controller->target_friction_ratio[1].value, 0.5);
 }
 
 TEST(ReaderTest, AnIntegerBeyondTheDigitsOfARealNumberIsRounded) {

@@ -256,7 +256,7 @@ max_voltage_amplitude_V = 120
 duration_s = 2e-3
 [controller]
 arithmetic = "q31"
-target_friction_ratio = [[0, 1]]
+target_friction_force_N = [[0, 0.01]]
 [sensor]
 samples_per_period = 8
 filter_Hz = 60e3

@@ -39,7 +39,7 @@ template <class S>
 using TolerantParts =
     Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
           NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>, NoRelearning<S>,
-          FedForward<S>, ForceSensor, FullDrive<S>, TolerantSamples>;
+          FedForward<S>, ForceSensor, RatioTarget<S>, FullDrive<S>, TolerantSamples>;
 
 template <class Scalar>
 class ToleratedSamples : public testing::Test {
