@@ -67,9 +67,9 @@ class Controller {
   /// already becomes one here, as if it were set next: until then no drive is asked for.
   void start() {
     const bool driven = state_ == State::running || state_ == State::limited;
-    const Scalar target = aim_.given(target_);
+    Scalar target = target_;
+    aim_.give_back(target);
     target_ = whole_ratio();
-    aim_.restart();
     restart(friction_, shaper_);
     regulator_.restart(target_);
     restart(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
@@ -100,8 +100,9 @@ class Controller {
     if (!numeric::is_finite(target)) {
       return;
     }
-    const Scalar ratio = aim_.take(
+    aim_.take(
         target, [this] { return believed_friction(); }, level_);
+    const Scalar ratio = numeric::clamp(target, Scalar{}, whole_ratio());
     if (ratio != target_) {
       regulator_.target_changes(ratio - target_);
       watch_.retarget();
@@ -233,8 +234,8 @@ class Controller {
   /// gives no drive here either. @param limit  that is named
   Request stand(Limit limit) {
     interrupt();
-    return aim_.driven(target_) ? slewed({standstill_.request(requested_), limit})
-                                : slewed({Scalar{}, Limit::none});
+    return target_ < whole_ratio() ? slewed({standstill_.request(requested_), limit})
+                                   : slewed({Scalar{}, Limit::none});
   }
 
   /// Answer at a sliding that is fast enough for a friction ratio, as far as a sensor tells one.
@@ -269,7 +270,7 @@ class Controller {
 
   /// What relearning asks for in this period. Without a drive there is nothing to pause.
   Task next_task(const FrictionReading<Scalar>& reading) {
-    if (aim_.driven(target_)) {
+    if (target_ < whole_ratio()) {
       return relearning_.next(reading, feedforward_);
     }
     interrupt_relearning();
@@ -310,7 +311,7 @@ class Controller {
 
   Request regulate(Scalar measured, Scalar speed) {
     // No drive can bring an undriven reading to its target.
-    if (aim_.undriven(target_) || !vibration_.settled()) {
+    if (whole_ratio() <= target_ || !vibration_.settled()) {
       regulator_.hold();
     }
     regulator_.learn_scale([&](Scalar ratio) { return feedforward_.amplitude(ratio, speed); });
@@ -337,7 +338,7 @@ class Controller {
 
   /// Judges the measured ratio; without a drive there is nothing to judge.
   void judge(Scalar measured, Scalar speed, bool clamped) {
-    if (aim_.undriven(target_)) {
+    if (whole_ratio() <= target_) {
       watch_.restart();
       return;
     }
@@ -351,7 +352,7 @@ class Controller {
 
   /// Amplitude for a commanded ratio, from the inverse map.
   Request feedforward(Scalar half_ratio, Scalar speed) {
-    if (aim_.undriven(target_)) {
+    if (whole_ratio() <= target_) {
       return {Scalar{}, Limit::none};
     }
     const Scalar amplitude = regulator_.scaled(map_.amplitude(feedforward_, half_ratio, speed));

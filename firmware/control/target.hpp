@@ -10,7 +10,7 @@ namespace sonoglide::control {
 
 /// A friction ratio ρ = F/Fc. The force is as right as the friction force Fc that is believed.
 ///
-/// All ratios on base 2; `ratio` is the one that the target means.
+/// All ratios on base 2; `ratio` is the one that the target means, 1/2 (ρ = 1) is no drive.
 template <class Scalar>
 class RatioTarget {
  public:
@@ -21,50 +21,37 @@ class RatioTarget {
 
   explicit RatioTarget(const Parameters&) {}
 
-  /// Forgets the target: no drive.
-  static constexpr void restart() {}
-
-  /// @param target  friction ratio, limited to [0, 1/2]; 1/2 (ρ = 1) is no drive
-  /// @return the ratio
+  /// Makes the ratio of a target; the controller limits it to [0, 1/2].
   template <class Believed>
-  static constexpr Scalar take(Scalar target, const Believed& /*believed*/,
-                               const FrictionLevel<Scalar>& /*level*/) {
-    return numeric::clamp(target, Scalar{}, whole());
-  }
+  static constexpr void take(const Scalar& /*target*/, const Believed& /*believed*/,
+                             const FrictionLevel<Scalar>& /*level*/) {}
 
   /// Another friction force is believed.
   template <class Believed>
   static constexpr void follow(const Believed& /*believed*/, const FrictionLevel<Scalar>& /*level*/,
                                const Scalar& /*ratio*/) {}
 
-  /// The target as it was taken.
-  static constexpr const Scalar& given(const Scalar& ratio) { return ratio; }
-
-  /// No drive is asked for.
-  static constexpr bool undriven(const Scalar& ratio) { return whole() <= ratio; }
-  static constexpr bool driven(const Scalar& ratio) { return ratio < whole(); }
+  /// Makes of the ratio the target as it was taken, and forgets that.
+  static constexpr void give_back(const Scalar& /*ratio*/) {}
 
   /// Of a measured ratio, the part by which a broken sensor is told.
   static constexpr const Scalar& judged(const Scalar& measured) { return measured; }
 
-  /// A measured ratio as feedback takes it. @param commanded  ratio
+  /// A measured ratio as feedback takes it, beside the one aimed at and the commanded one.
   static constexpr const Scalar& reading(const Scalar& measured, const Scalar& /*ratio*/,
-                                  const Scalar& /*commanded*/) {
+                                         const Scalar& /*commanded*/) {
     return measured;
   }
-
- private:
-  static constexpr Scalar whole() { return numeric::from_real<Scalar>(0.5); }
 };
 
 /// A friction force F*. It means the ratio F*/L over the level L, and measured ratios are F/L. So
 /// feedback brings F to F* whatever Fc is; Fc picks the drive before feedback has acted, no more.
 ///
-///   L = max(Fc believed, F*)
+///   L = max(Fc believed, F*), at least FrictionLevel::smallest()
 ///
 /// F* can only be reached where the friction is at least F*. So a ratio above 1, which would say that
-/// the friction is believed too small, becomes 1, and feedback lowers it from there. A force above what
-/// friction there is asks for the weakest drive of the map.
+/// the friction is believed too small, becomes the last one below 1, which is driven, and feedback
+/// lowers it from there. A force above what friction there is asks for the weakest drive of the map.
 ///
 /// A true friction of f L makes the loop's gain f times what it was designed for; commanded over target
 /// ratio is then about 1/f. So feedback takes the deviation of a reading from its target by this factor,
@@ -75,8 +62,6 @@ class RatioTarget {
 /// The functions are those of a RatioTarget.
 template <class Scalar>
 class ForceTarget {
-  using Ratio = RatioTarget<Scalar>;
-
  public:
   static constexpr PartName part_name{"target", "ForceTarget"};
   static constexpr unsigned base = 1;
@@ -92,43 +77,42 @@ class ForceTarget {
 
   explicit ForceTarget(const Parameters& parameters) : force_(parameters.force) {}
 
-  void restart() { given_ = {}; }
-
-  /// @param target    F*, base: the sensor's full scale; 0 or less is no drive. A ratio as
-  ///                  RatioTarget::take()
-  /// @param believed  gives Fc on the same base, at least FrictionLevel::smallest()
+  /// @param target    F*, base: the sensor's full scale; 0 or less is no drive. Becomes the ratio
+  /// @param believed  gives Fc on the same base
   /// @param level     becomes L
   template <class Believed>
-  Scalar take(Scalar target, const Believed& believed, FrictionLevel<Scalar>& level) {
-    if (!force_) {
-      return Ratio::take(target, believed, level);
+  void take(Scalar& target, const Believed& believed, FrictionLevel<Scalar>& level) {
+    if (force_) {
+      given_ = numeric::max(target, Scalar{});
+      follow(believed, level, target);
     }
-    given_ = numeric::max(target, Scalar{});
-    level = FrictionLevel<Scalar>(numeric::max(believed(), given_));
-    if (given_ == Scalar{}) {
-      return whole();
-    }
-    const Scalar ratio = numeric::min(level.half_ratio(given_), whole());
-    inverse_ = numeric::from_real<Scalar>(0x1p-6) / numeric::max(ratio, least_ratio());
-    return ratio;
   }
 
   template <class Believed>
   void follow(const Believed& believed, FrictionLevel<Scalar>& level, Scalar& ratio) {
+    if (!force_) {
+      return;
+    }
+    // After a calibration that failed, what is believed may be nothing.
+    const Scalar least = numeric::max(given_, FrictionLevel<Scalar>::smallest());
+    level = FrictionLevel<Scalar>(numeric::max(believed(), least));
+    if (given_ == Scalar{}) {
+      ratio = numeric::from_real<Scalar>(0.5);
+      return;
+    }
+    ratio = numeric::min(level.half_ratio(given_), largest_driven());
+    inverse_ = numeric::from_real<Scalar>(0x1p-6) / numeric::max(ratio, least_ratio());
+  }
+
+  void give_back(Scalar& ratio) {
     if (force_) {
-      ratio = take(given_, believed, level);
+      ratio = given_;
+      given_ = {};
     }
   }
 
-  Scalar given(const Scalar& ratio) const { return force_ ? given_ : ratio; }
-
-  bool undriven(const Scalar& ratio) const {
-    return force_ ? given_ == Scalar{} : Ratio::undriven(ratio);
-  }
-  bool driven(const Scalar& ratio) const { return !undriven(ratio); }
-
   Scalar judged(const Scalar& measured) const {
-    return force_ ? numeric::min(measured, whole()) : measured;
+    return force_ ? numeric::min(measured, numeric::from_real<Scalar>(0.5)) : measured;
   }
 
   Scalar reading(const Scalar& measured, const Scalar& ratio, const Scalar& commanded) const {
@@ -142,7 +126,10 @@ class ForceTarget {
   }
 
  private:
-  static constexpr Scalar whole() { return numeric::from_real<Scalar>(0.5); }
+  /// The last number below 1/2 of a Q15 and of a float.
+  static constexpr Scalar largest_driven() {
+    return numeric::from_real<Scalar>(sizeof(Scalar) < 4 ? 0.5 - 0x1p-15 : 0.5 - 0x1p-25);
+  }
   /// Whose inverse is kept.
   static constexpr Scalar least_ratio() { return numeric::from_real<Scalar>(0x1p-5); }
 

@@ -59,8 +59,8 @@ struct Inputs {
   double drive_force_amplitude_N = 0.0;  ///< of a plant without its controller
   double drive_frequency_Hz = 0.0;       ///< likewise, where the scene's carrier changes
   PlantOutputs seen;                     ///< by a controller without its plant
-  double target = 0.0;        ///< friction ratio, or force [N]; 0: the scene's own steps
-  double load_force_N = 0.0;  ///< on a load, beside that of the scene
+  double target = 0.0;                   ///< friction ratio, or force [N]; 0: the scene's own steps
+  double load_force_N = 0.0;             ///< on a load, beside that of the scene
 };
 
 /// What of a scene cannot be stepped.

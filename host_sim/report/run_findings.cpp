@@ -19,10 +19,9 @@ constexpr std::uint64_t ending_periods = 256;
 }  // namespace
 
 void Course::take(const loop::Period& period) {
-  curve_.add(period.begin_s,
-             {period.friction_ratio, period.friction_force_N, period.target,
-              period.drive_amplitude_N, period.begin_velocity_m_per_s, period.bias_N,
-              period.begin_load_displacement_m});
+  curve_.add(period.begin_s, {period.friction_ratio, period.friction_force_N, period.target,
+                              period.drive_amplitude_N, period.begin_velocity_m_per_s,
+                              period.bias_N, period.begin_load_displacement_m});
   largest_bias_N_ = std::max(largest_bias_N_, std::abs(period.bias_N));
   ++periods_in_[static_cast<std::size_t>(period.limit)];
   if (period.open_fraction > 0.0) {

@@ -367,15 +367,18 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
         calibration_s * 1e3);
   }
   const TargetUnit target = target_unit(scene);
-  text += fmt::format("{:>11} {:>7} {:>11} {:>10} {:>8} {:>10}  {}\n", "from",
-                      held_head(target, "target"), "settles in", held_head(target, "error"),
-                      held_head(target, "ripple"), "drive", "limit");
+  const int target_width = target.is_force() ? 10 : 7;
+  const int ripple_width = target.is_force() ? 10 : 8;
+  text += fmt::format("{:>11} {:>{}} {:>11} {:>10} {:>{}} {:>10}  {}\n", "from",
+                      held_head(target, "target"), target_width, "settles in",
+                      held_head(target, "error"), held_head(target, "ripple"), ripple_width,
+                      "drive", "limit");
   for (const report::StepMetrics& step : findings.steps()) {
-    text += fmt::format("{:>8.3f} ms {:>7} {:>11} {:>10} {:>8} {:>8} {}  {}\n", step.time_s * 1e3,
-                        target_figure(target, step.target), settling(step.settling_time_s),
-                        error_figure(target, step.steady_error), width_figure(target, step.ripple),
-                        figure("{:.1f}", step.drive_amplitude_N * unit.per_N), unit.name,
-                        limit_text(step));
+    text += fmt::format(
+        "{:>8.3f} ms {:>{}} {:>11} {:>10} {:>{}} {:>8} {}  {}\n", step.time_s * 1e3,
+        target_figure(target, step.target), target_width, settling(step.settling_time_s),
+        error_figure(target, step.steady_error), width_figure(target, step.ripple), ripple_width,
+        figure("{:.1f}", step.drive_amplitude_N * unit.per_N), unit.name, limit_text(step));
   }
   if (result.control->design.relearns) {
     text += pause_line(findings.pauses());

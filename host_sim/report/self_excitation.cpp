@@ -41,8 +41,11 @@ std::vector<std::string> self_excitation_notes(const scene::Scene& scene) {
   const TargetUnit unit = target_unit(scene);
   for (const scene::TargetStep& step : scene.controller->targets()) {
     const double sliding_m_per_s = speed_m_per_s(scene, step.time_s);
-    const double ratio = step.value / unit.size;
-    if (!(sliding_m_per_s > 0.0) || !told.emplace(ratio, sliding_m_per_s).second) {
+    const double ratio = unit.is_force()
+                             ? step.value / scene::undriven_friction_N(
+                                                scene.friction.law, scene.friction, sliding_m_per_s)
+                             : step.value;
+    if (!(sliding_m_per_s > 0.0) || ratio > 1.0 || !told.emplace(ratio, sliding_m_per_s).second) {
       continue;
     }
     const steady::Requirement needed = steady::require_ratio(scene, sliding_m_per_s, ratio);

@@ -22,7 +22,7 @@ using std::chrono_literals::operator""s;
 constexpr std::chrono::milliseconds longest_save = 12s;
 
 constexpr const char* help_text =
-    "status, target RATIO, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+    "status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
 
 std::string decimal(std::uint32_t value, int places) {
   std::array<char, encoding::most_decimal_characters> text{};

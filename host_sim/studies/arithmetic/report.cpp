@@ -235,11 +235,15 @@ output::Chart targets_panel(const ArithmeticComparison& comparison, const output
 }  // namespace
 
 output::Sheet diagrams(const scene::Scene& scene, const ArithmeticComparison& comparison) {
+  const bool of_force = scene.controller->holds_force();
   return {{images_panel(comparison),
            targets_panel(comparison, {0.52, 0.47, 0.48, 0.46}, "",
                          "rms difference from float64 [-]", true),
-           targets_panel(comparison, {0.52, 0.0, 0.48, 0.47}, "Target friction ratio [-]",
-                         "Ripple of the ratio [-]", false)},
+           targets_panel(
+               comparison, {0.52, 0.0, 0.48, 0.47},
+               of_force ? "Target force over the friction [-]" : "Target friction ratio [-]",
+               of_force ? "Ripple of the force over the friction [-]" : "Ripple of the ratio [-]",
+               false)},
           1120,
           620,
           2,

@@ -45,12 +45,13 @@ void require_steady_vibration(const scene::Scene& scene) {
 }
 
 /// With any other alone there is no curve of force over speed.
-void require_some_ratio(const std::vector<double>& ratios) {
+void require_some_ratio(const scene::Scene& scene, const std::vector<double>& ratios) {
   const bool some =
       std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return is_allowed(ratio); });
   if (!some) {
     throw configure::ConfigurationError(
-        "controller.target_friction_ratio",
+        scene.controller->holds_force() ? "controller.target_friction_force_N"
+                                        : "controller.target_friction_ratio",
         fmt::format("no target to design for; allowed: at least one of {} to below 1",
                     least_ratio));
   }
@@ -124,7 +125,7 @@ Task make_task(const configure::Experiment& experiment, const std::vector<double
         "sliding.velocity_m_per_s",
         "nothing slides, and there is no friction ratio; allowed: a speed other than 0");
   }
-  require_some_ratio(task.ratios);
+  require_some_ratio(scene, task.ratios);
   std::sort(task.ratios.begin(), task.ratios.end());
   task.ratios.erase(std::unique(task.ratios.begin(), task.ratios.end()), task.ratios.end());
   return task;

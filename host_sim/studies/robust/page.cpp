@@ -22,9 +22,12 @@ constexpr std::size_t most_points_drawn = 2000;
 std::string lead(const Task& task, const Study& study) {
   return fmt::format(
       "The loop of {} on {} inside its tolerances, and a search of {} for the worst of them. The "
-      "controller is the same on all: it is designed for the scene.",
+      "controller is the same on all: it is designed for the scene.{}",
       task.nominal().name, counted(study.samples.size(), "plant"),
-      counted(study.search.size(), "run"));
+      counted(study.search.size(), "run"),
+      task.nominal().controller->holds_force()
+          ? " Overshoot, error and ripple of the force are over the friction limit of the plant at 0 s."
+          : "");
 }
 
 std::vector<std::string> warnings(const Task& task, const Study& study) {
@@ -234,25 +237,31 @@ output::Section importance_section(const Task& task, const Study& study) {
   return section;
 }
 
-/// Target and friction ratio of the carrier periods.
+/// Target, and what is held, of the carrier periods.
 struct Course final : loop::PeriodSink {
   static constexpr std::size_t most_points = 4000;
+  bool of_force;
   report::ExtremesCurve<2> curve{most_points};
 
+  explicit Course(bool force) : of_force(force) {}
+
   void take(const loop::Period& period) override {
-    curve.add(period.end_s, {period.target, period.friction_ratio});
+    curve.add(period.end_s,
+              {period.target, of_force ? period.friction_force_N : period.friction_ratio});
   }
 };
 
 output::Chart loop_chart(const std::string& title, const scene::Scene& scene,
                          const configure::ControlDesign& design) {
-  Course course;
+  const bool of_force = scene.controller->holds_force();
+  const std::string held = of_force ? "Friction force" : "Friction ratio";
+  Course course(of_force);
   loop::Watch watch;
   watch.periods.push_back(&course);
   output::Chart chart;
   chart.title = title;
   chart.x_axis.label = "Time [s]";
-  chart.y_axis.label = "Friction ratio [-]";
+  chart.y_axis.label = held + (of_force ? " [N]" : " [-]");
   chart.group = "loops";
   try {
     loop::run(scene, design, watch);
@@ -260,8 +269,7 @@ output::Chart loop_chart(const std::string& title, const scene::Scene& scene,
     chart.note = fmt::format("Ends early: {}.", error.what());
   }
   chart.x = course.curve.x();
-  chart.curves = {{"Target", course.curve.y(0), output::Line::stepped},
-                  {"Friction ratio", course.curve.y(1)}};
+  chart.curves = {{"Target", course.curve.y(0), output::Line::stepped}, {held, course.curve.y(1)}};
   return chart;
 }
 

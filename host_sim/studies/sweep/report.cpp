@@ -18,7 +18,9 @@ std::string heading(const Plan& plan) {
   }
   text += "friction_ratio_whole_run,friction_ratio_window,dissipation_ratio_window,";
   if (plan.closed_loop()) {
-    text += "settling_time_s,steady_error,ripple,limit,fault,";
+    text += plan.first().controller->holds_force()
+                ? "settling_time_s,steady_error_N,ripple_N,limit,fault,"
+                : "settling_time_s,steady_error,ripple,limit,fault,";
   }
   return text + "status\n";
 }

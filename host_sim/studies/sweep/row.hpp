@@ -21,8 +21,8 @@ struct PointResult {
   double dissipation_ratio_window = undefined;  ///< φ_fu
   // Closed loop, of the last target step; see report::StepMetrics.
   double settling_time_s = undefined;  ///< NaN also if it never settles
-  double steady_error = undefined;
-  double ripple = undefined;
+  double steady_error = undefined;     ///< of a target force [N]
+  double ripple = undefined;           ///< likewise
   control::Limit limit = control::Limit::none;
   control::Fault fault = control::Fault::none;  ///< the first of the run
 

@@ -126,8 +126,9 @@ PointResult run(const experiment::Experiment& experiment) {
   if (meter) {
     const report::StepMetrics last = meter->steps().back();
     row.settling_time_s = last.settling_time_s.value_or(PointResult::undefined);
-    row.steady_error = last.steady_error;
-    row.ripple = last.ripple;
+    const double size = report::target_unit(scene).size;
+    row.steady_error = last.steady_error * size;
+    row.ripple = last.ripple * size;
     row.limit = last.limit;
     const std::vector<loop::FaultEvent>& faults = result.control->faults;
     row.fault = faults.empty() ? control::Fault::none : faults.front().fault;

@@ -24,8 +24,12 @@ std::vector<Figure> figures(const Plan& plan) {
       {"Power dissipation ratio, window", &PointResult::dissipation_ratio_window}};
   if (plan.closed_loop()) {
     all.push_back({"Settling time, last target step [s]", &PointResult::settling_time_s});
-    all.push_back({"Steady error, last target step", &PointResult::steady_error});
-    all.push_back({"Ripple, last target step", &PointResult::ripple});
+    const bool of_force = plan.first().controller->holds_force();
+    all.push_back(
+        {of_force ? "Steady error, last target step [N]" : "Steady error, last target step",
+         &PointResult::steady_error});
+    all.push_back({of_force ? "Ripple, last target step [N]" : "Ripple, last target step",
+                   &PointResult::ripple});
   }
   return all;
 }
@@ -129,6 +133,10 @@ output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
 }
 
 Subject subject(const Plan& plan) {
+  if (plan.closed_loop() && plan.first().controller->holds_force()) {
+    return {&PointResult::steady_error, "Steady error of the friction force",
+            "Steady error of the friction force [N]"};
+  }
   return plan.closed_loop()
              ? Subject{&PointResult::steady_error, "Steady error of the friction ratio",
                        "Steady error of the friction ratio [-]"}

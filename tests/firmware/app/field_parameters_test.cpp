@@ -90,6 +90,28 @@ TYPED_TEST(FieldParametersTest, EachParameterGoesWhereItSays) {
   EXPECT_TRUE(TestFixture::design.target(1000000) == half);
 }
 
+/// A force is a part of its sensor's full scale, the designed one exactly.
+TYPED_TEST(FieldParametersTest, ATargetThatIsAForceHasTheFullScaleAsItsBase) {
+  using S = TypeParam;
+  using HoldingParts =
+      control::Parts<S, control::TrustedFriction<S>, control::CoulombFeedforward<S>,
+                     control::NoSlewLimit<S>, control::NoShaping<S>,
+                     control::IntegralRegulator<S, 1>, control::NoRelearning<S>,
+                     control::FedForward<S>, control::ForceSensor, control::ForceTarget<S>>;
+  typename control::Controller<HoldingParts>::Parameters holding{};
+  holding.friction_force = this->real(0.5);
+  holding.target = {true};
+  const FieldDesign<HoldingParts> tested(holding, this->real(1.0 / 7.0), 1, TestFixture::period_s,
+                                         default_timeout_ms);
+  const ParameterValues presets = tested.presets();
+  EXPECT_EQ(presets[static_cast<std::size_t>(Parameter::target)], 142857U);
+  EXPECT_TRUE(tested.target(142857) == this->real(1.0 / 7.0));
+  EXPECT_TRUE(tested.target(500000) == this->real(0.5));
+  EXPECT_TRUE(tested.target(0) == S{});
+  EXPECT_TRUE(tested.target(1000000) == control::FullDrive<S>::highest());
+  EXPECT_TRUE(tested.controller_parameters(presets).target.force);
+}
+
 // Every millionth, as if it had been written in a scene.
 TYPED_TEST(FieldParametersTest, MillionthsAreRoundedOnce) {
   for (std::uint32_t i = 0; i < one_in_millionths; ++i) {

@@ -120,11 +120,12 @@ std::size_t expect_every_number_in_text() {
 }
 
 template <class S>
-using EveryPart = control::Parts<
-    S, control::LearntFriction<S>, control::DahlFeedforward<S>, control::SlewLimit<S>,
-    control::NotchShaper<S, 4>, control::IntegralRegulator<S, 4>, control::PeriodicRelearning<S>,
-    control::FedForward<S>, control::ForceSensor, control::ForceTarget<S>, control::DriveLimit<S>,
-    control::TolerantSamples>;
+using EveryPart =
+    control::Parts<S, control::LearntFriction<S>, control::DahlFeedforward<S>,
+                   control::SlewLimit<S>, control::NotchShaper<S, 4>,
+                   control::IntegralRegulator<S, 4>, control::PeriodicRelearning<S>,
+                   control::FedForward<S>, control::ForceSensor, control::ForceTarget<S>,
+                   control::DriveLimit<S>, control::TolerantSamples>;
 
 template <class Scalar>
 class InitialiserOf : public testing::Test {};

@@ -129,6 +129,35 @@ TEST_P(ForceTargetTest, AFrictionThatIsBelievedWrongIsMadeGood) {
   }
 }
 
+/// A body of its own mass under a force that is held: it slows down by F*/M a second; after a jump of
+/// the friction too.
+TEST_P(ForceTargetTest, ALoadSlowsDownByTheForceOverItsMass) {
+  constexpr double part = 0.4;
+  for (const double factor : {1.0, 1.5, 0.5}) {
+    Scene scene = held_at(part, GetParam());
+    const double friction_N = scene.friction.limit_N();
+    scene::Load load;
+    load.mass_kg = 0.01;
+    load.initial_velocity_m_per_s = scene.sliding.fastest_m_per_s();
+    scene.load = load;
+    scene.run.duration_s = 8e-3;
+    change_friction(scene, {{0.0, 1.0}, {3e-3, 1.0}, {3e-3, factor}});
+    RunResult result;
+    const std::vector<Period> periods = periods_of(scene, &result);
+    EXPECT_TRUE(result.control->faults.empty());
+    const auto first = std::find_if(periods.begin(), periods.end(),
+                                    [](const Period& period) { return period.begin_s >= 4e-3; });
+    const double change_m_per_s =
+        periods.back().begin_velocity_m_per_s - first->begin_velocity_m_per_s;
+    const double target_N = part * friction_N;
+    EXPECT_NEAR(change_m_per_s,
+                -target_N / load.mass_kg * (periods.back().begin_s - first->begin_s),
+                2e-2 * std::abs(change_m_per_s))
+        << factor;
+    EXPECT_LE(back_after_s(periods, target_N, friction_N, 3e-3), 0.5e-3) << factor;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Arithmetics, ForceTargetTest,
                          testing::Values(Arithmetic::float64, Arithmetic::float32, Arithmetic::q31,
                                          Arithmetic::q15),

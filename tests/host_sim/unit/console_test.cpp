@@ -137,7 +137,7 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("set gain 1").find("unknown parameter; there are: target, drive_limit,"), 0U);
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
-      "status, target RATIO, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+      "status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
   EXPECT_EQ(line_of("help"), commands);
   for (const char* unknown : {"go", "target", "stop now", "set a", "set a 1 2"}) {
     EXPECT_EQ(line_of(unknown), "unknown; there are: " + commands) << unknown;
