@@ -28,7 +28,7 @@ constexpr auto period_clocks = static_cast<std::uint32_t>(period_s * Hardware::B
 constexpr std::uint32_t settled = 300;  // periods
 
 constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].half_ratio,
+                                                        configuration::target_steps[0].target,
                                                         configuration::design, period_s, 0);
 using Unit = app::Unit<configuration::Parts, Hardware::Flash>;
 

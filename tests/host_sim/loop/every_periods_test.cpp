@@ -58,7 +58,7 @@ std::vector<double> amplitudes_by_hand(const scene::Scene& scene) {
       for (; next_target < targets.size() &&
              targets[next_target].time_s < (k + 1) * period_s + 1e-9 * period_s;
            ++next_target) {
-        controller->set_target(targets[next_target].friction_ratio);
+        controller->set_target(targets[next_target].value);
       }
       const hal::Drive drive = controller->exchange(
           sensor.sample(means_N.front(), plant.plant().sliding_velocity_m_per_s));
