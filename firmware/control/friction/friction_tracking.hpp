@@ -120,7 +120,10 @@ class FrictionTracking {
         phase_ = Phase::weigh;
         break;
       case Phase::weigh:
-        weigh(now.requested);
+        weigh();
+        break;
+      case Phase::judge:
+        judge(now.requested);
         break;
       case Phase::learn:
         learn();
@@ -199,6 +202,7 @@ class FrictionTracking {
     velocity_slope,
     stiffness_slope,
     weigh,
+    judge,
     learn,
     follow,
     adapt,
@@ -283,14 +287,15 @@ class FrictionTracking {
       constexpr Scalar jump = numeric::from_real<Scalar>(1.0 / 32.0);
       const Scalar shown = drift_.shown(reading_.innovation);
       if (numeric::abs(shown) < jump) {
-        follow(shown, now.requested);
+        phase_ = Phase::judge;
         return;
       }
     }
     phase_ = Phase::prepare;
   }
 
-  void follow(Scalar shown, Scalar requested) {
+  void judge(Scalar requested) {
+    const Scalar shown = drift_.shown(reading_.innovation);
     if (drift_.moves(shown, noise_)) {
       error_ = Drift::error(shown, noise_, reading_.slope.force);
       phase_ = Phase::follow;
@@ -314,12 +319,9 @@ class FrictionTracking {
     phase_ = dips_ ? Phase::weigh : Phase::velocity_slope;
   }
 
-  void weigh(Scalar requested) {
-    if (estimate_.weigh(reading_, wanted_, tests_map_)) {
-      phase_ = Phase::learn;
-    } else {
-      begin(requested);
-    }
+  /// A reading that is no jump, because Kt and g may be another by as much, is one of a drift.
+  void weigh() {
+    phase_ = estimate_.weigh(reading_, wanted_, tests_map_) ? Phase::learn : Phase::judge;
   }
 
   void learn() {
@@ -342,7 +344,8 @@ class FrictionTracking {
     far_ = numeric::from_real<Scalar>(0.25) < numeric::abs(force);
     change_force(force);
     if (!dips_) {
-      taken_at_ = place_;  // the request before a dip asks for no other one
+      // A jump is at the same place, of which a reading that it has cut through shows a wrong ratio.
+      taken_at_ = wanted_ ? place_ : taken_at_;
       const Scalar measured =
           numeric::limited_product(mean_.measured(), exponential_of_twice(-force));
       expected_ = measured - unexplained(measured);
