@@ -7,9 +7,10 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 # A controller's step becomes one function, in which its parameters are known: fewer instructions, and
 # fewer bytes, than a call for each of its parts. Scheduling before registers are chosen would only
-# make more of its numbers live at once than there are registers; after that it stays on.
+# make more of its numbers live at once than there are registers; after that it stays on. A jump through
+# a table has no target that the analysis of the stack can see.
 string(JOIN " " CMAKE_CXX_FLAGS_INIT
-  ${processor_flags} -O2 -finline-limit=2000 -fno-schedule-insns -g -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics
+  ${processor_flags} -O2 -finline-limit=2000 -fno-schedule-insns -fno-jump-tables -g -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics
   -ffunction-sections -fdata-sections)
 # No start files and no system calls: what needs a heap or an operating system does not link.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings")

@@ -94,51 +94,12 @@ class FrictionTracking {
   /// One call for each period in which the drive is to hold a ratio.
   template <class Feedforward>
   Task next(const FrictionReading<Scalar>& now, const Feedforward& map) {
-    switch (phase_) {
-      case Phase::watch:
-        watch(now);
-        break;
-      case Phase::start:
-        dip(uncertain());
-        begin(now.requested);
-        break;
-      case Phase::prepare:
-        prepare();
-        slopes_.begin(mapped(), map, now.speed);
-        break;
-      case Phase::velocity_slope:
-        reading_.slope.gain = slopes_.of_velocity(map, now.speed);
-        if (Scalar{} < reading_.slope.gain) {
-          begin(now.requested);
-        } else {
-          phase_ = Phase::stiffness_slope;
-        }
-        break;
-      case Phase::stiffness_slope:
-        reading_.slope.stiffness = slopes_.of_stiffness(map, now.speed, reading_.slope.gain);
-        reading_.slope.force = one_half() - reading_.slope.stiffness;
-        phase_ = Phase::weigh;
-        break;
-      case Phase::weigh:
-        weigh();
-        break;
-      case Phase::judge:
-        judge(now.requested);
-        break;
-      case Phase::learn:
-        learn();
-        return Task::learn;
-      case Phase::follow:
-        change_force(drift_.follow(error_));
-        return Task::learn;
-      case Phase::adapt:
-        conclude(now);
-        return Task::adapt;
-      case Phase::resume:
-        resume(now);
-        break;
+    // Most periods only watch, and are not to cost a search for their phase.
+    if (phase_ != Phase::watch) {
+      return act(now, map);
     }
-    return dips_ ? Task::pause : Task::regulate;
+    watch(now);
+    return goes_on();
   }
 
   /// Fc that follows from the one before.
@@ -216,6 +177,56 @@ class FrictionTracking {
   };
 
   static constexpr std::uint32_t shown_after = 3;  ///< periods, of a request
+
+  Task goes_on() const { return dips_ ? Task::pause : Task::regulate; }
+
+  template <class Feedforward>
+  Task act(const FrictionReading<Scalar>& now, const Feedforward& map) {
+    switch (phase_) {
+      case Phase::watch:
+        break;
+      case Phase::start:
+        dip(uncertain());
+        begin(now.requested);
+        break;
+      case Phase::prepare:
+        prepare();
+        slopes_.begin(mapped(), map, now.speed);
+        break;
+      case Phase::velocity_slope:
+        reading_.slope.gain = slopes_.of_velocity(map, now.speed);
+        if (Scalar{} < reading_.slope.gain) {
+          begin(now.requested);
+        } else {
+          phase_ = Phase::stiffness_slope;
+        }
+        break;
+      case Phase::stiffness_slope:
+        reading_.slope.stiffness = slopes_.of_stiffness(map, now.speed, reading_.slope.gain);
+        reading_.slope.force = one_half() - reading_.slope.stiffness;
+        phase_ = Phase::weigh;
+        break;
+      case Phase::weigh:
+        weigh();
+        break;
+      case Phase::judge:
+        judge(now.requested);
+        break;
+      case Phase::learn:
+        learn();
+        return Task::learn;
+      case Phase::follow:
+        change_force(drift_.follow(error_));
+        return Task::learn;
+      case Phase::adapt:
+        conclude(now);
+        return Task::adapt;
+      case Phase::resume:
+        resume(now);
+        break;
+    }
+    return goes_on();
+  }
 
   static constexpr Scalar one_half() { return numeric::from_real<Scalar>(0.5); }
   static Floating unity() { return numeric::rescaled(numeric::floating(one_half()), 1); }
