@@ -57,9 +57,10 @@ class Controller {
         aim_(parameters.target) {}
 
   /// Makes a copy, or the bytes, of a controller that stood elsewhere its own.
-  /// @param parameters  of a controller with the same vibration, and equal to its own; outlive this
+  /// @param parameters  of a controller with the same map and vibration, and equal to its own; outlive this
   template <class EqualParameters>
   void settle_at(const EqualParameters& parameters) {
+    feedforward_.settle_at(parameters.feedforward);
     vibration_.settle_at(parameters.vibration);
   }
 

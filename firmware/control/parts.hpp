@@ -26,7 +26,8 @@ template <class ScalarT, class FrictionT, class FeedforwardT, class SlewT, class
 struct Parts {
   using Scalar = ScalarT;
   using Friction = FrictionT;        ///< TrustedFriction | LearntFriction
-  using Feedforward = FeedforwardT;  ///< CoulombFeedforward | (Tracked)DahlFeedforward
+  using Feedforward = FeedforwardT;  ///< CoulombFeedforward | (Tracked)DahlFeedforward |
+                                     ///< TabulatedFeedforward
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
   using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator | ScalingRegulator

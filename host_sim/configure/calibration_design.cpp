@@ -132,7 +132,7 @@ void require_no_contradiction(const scene::Scene& scene) {
 
 /// What the inverse map of a tracked friction lacks; empty: nothing.
 std::string missing_for_map(const scene::Scene& scene, const ControlDesign& design) {
-  if (design.map != scene::FrictionMap::dahl || !scene::has_own_map(scene.friction.law)) {
+  if (design.map != scene::FrictionMap::dahl) {
     return "friction.law = \"dahl\"";
   }
   if (scene.drive->waveform != scene::Waveform::cosine) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <variant>
@@ -76,12 +77,24 @@ void design_bias(const scene::Scene& scene, const NominalPlant& plant, ControlDe
   }
 }
 
+void design_map(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design) {
+  design.map = scene::friction_map(scene.friction.law);
+  if (!is_tabulated(scene)) {
+    return;
+  }
+  design.inverse = design_inverse(scene, plant);
+  for (const double target : plant.target_ratios(*scene.controller)) {
+    if (target < design.inverse->least_ratio.value_or(0.0)) {
+      design.unreachable_ratio = std::min(target, design.unreachable_ratio.value_or(target));
+    }
+  }
+}
+
 }  // namespace
 
 ControlDesign design_control(const scene::Scene& scene) {
   const NominalPlant plant = nominal_plant(scene);
   ControlDesign design;
-  design.map = scene::friction_map(scene.friction.law);
   design.carrier_Hz = scene.drive->frequency_Hz;
   if (scene.transducer) {
     design.force_factor_N_per_V = scene.transducer->force_factor_N_per_V * plant.force_factor;
@@ -89,6 +102,7 @@ ControlDesign design_control(const scene::Scene& scene) {
   design.senses_force = scene.sensor.force;
   design.holds_force = scene.controller->holds_force();
   design.relearns = scene.controller->relearn_every_s.has_value();
+  design_map(scene, plant, design);
   design_scales(scene, plant, design);
   require_readable_targets(scene, design);
   design_vibration(scene, plant, design);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
+#include "host_sim/configure/friction/inverse_design.hpp"
+#include "host_sim/configure/friction/vibration_map.hpp"
 #include "host_sim/configure/vibration/bias_design.hpp"
 #include "host_sim/configure/vibration/damped_design.hpp"
 #include "host_sim/configure/vibration/notch_design.hpp"
@@ -45,6 +47,8 @@ inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_span / 2;
 struct ControlDesign {
   ControlScales scales{};
   scene::FrictionMap map = scene::FrictionMap::dahl;  ///< of the feedforward
+  std::optional<InverseDesign> inverse;               ///< a tabulated one
+  std::optional<double> unreachable_ratio;            ///< the lowest target that no vibration gives
   double friction_force = 0.0;                        ///< nominal Fc
   double smallest_friction = 0.0;                     ///< that may be learnt
   double contact_force = 0.0;  ///< nominal Kt times the vibration amplitude at full drive
@@ -130,7 +134,8 @@ struct ControlDesign {
     return std::visit([](const auto& mode) { return mode.changing_periods(); }, vibration);
   }
   VibrationMap vibration_map(double nominal_friction_N) const {
-    return {map, scales.velocity_m_per_s, contact_force * scales.force_N / nominal_friction_N};
+    return {map, scales.velocity_m_per_s, contact_force * scales.force_N / nominal_friction_N,
+            inverse ? &*inverse : nullptr, nominal_friction_N / (friction_force * scales.force_N)};
   }
 };
 

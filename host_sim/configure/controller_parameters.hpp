@@ -12,6 +12,7 @@
 #include "firmware/control/friction/friction_tracking.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
+#include "firmware/control/friction/tabulated_feedforward.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
 #include "firmware/control/target.hpp"
@@ -44,6 +45,16 @@ template <class Scalar>
 typename control::DahlFeedforward<Scalar>::Parameters parameters(
     const ControlDesign& design, Type<control::DahlFeedforward<Scalar>> /*part*/) {
   return {split<Scalar>(design.contact_force)};
+}
+
+template <class Scalar>
+typename control::TabulatedFeedforward<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::TabulatedFeedforward<Scalar>> /*part*/) {
+  const InverseDesign inverse = design.inverse.value_or(InverseDesign{});
+  const double travel = design.scales.velocity_m_per_s / inverse.reference_m_per_s *
+                        (inverse.over_force ? design.friction_force : 1.0);
+  return {split<Scalar>(travel), split<Scalar>(inverse.reach), inverse.over_force, inverse.form,
+          inverse.table};
 }
 
 /// Wide open where the design has none.

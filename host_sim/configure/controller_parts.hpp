@@ -13,6 +13,7 @@
 #include "firmware/control/friction/friction_tracking.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
+#include "firmware/control/friction/tabulated_feedforward.hpp"
 #include "firmware/control/limits/current_limit.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
@@ -141,7 +142,7 @@ template <class Scalar>
 struct ControllerParts {
   Choice<control::TrustedFriction<Scalar>, control::LearntFriction<Scalar>> friction;
   Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>,
-         control::TrackedDahlFeedforward<Scalar>>
+         control::TrackedDahlFeedforward<Scalar>, control::TabulatedFeedforward<Scalar>>
       feedforward;
   Choice<control::NoSlewLimit<Scalar>, control::SlewLimit<Scalar>> slew;
   typename ShaperParts<Scalar>::Part shaper;
@@ -194,7 +195,15 @@ struct ControllerParts {
 
  private:
   static std::size_t feedforward_of(const ControlDesign& design) {
-    return design.map == scene::FrictionMap::coulomb ? 0 : (design.tracks ? 2 : 1);
+    switch (design.map) {
+      case scene::FrictionMap::coulomb:
+        return 0;
+      case scene::FrictionMap::dahl:
+        return design.tracks ? 2 : 1;
+      case scene::FrictionMap::tabulated:
+        break;
+    }
+    return 3;
   }
   static std::size_t relearning_of(const ControlDesign& design) {
     return design.tracks ? 2 : (design.relearns ? 1 : 0);

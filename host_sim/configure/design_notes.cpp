@@ -212,6 +212,16 @@ void add_tracking_note(const ControlDesign& design, std::vector<std::string>& no
   }
 }
 
+/// Of targets that no drive reaches.
+void add_reach_note(const ControlDesign& design, std::vector<std::string>& notes) {
+  if (design.unreachable_ratio) {
+    notes.push_back(fmt::format(
+        "No vibration brings the friction ratio of this contact to a target of {:.3g}: at the "
+        "fastest sliding it falls no lower than {:.3g}.",
+        *design.unreachable_ratio, *design.inverse->least_ratio));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> design_notes(const ControlDesign& design) {
@@ -230,6 +240,7 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
         design.bias->natural, design.bias->limit_N, design.bias->part));
   }
   add_tracking_note(design, notes);
+  add_reach_note(design, notes);
   return notes;
 }
 

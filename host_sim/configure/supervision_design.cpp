@@ -10,10 +10,22 @@
 namespace sonoglide::configure {
 namespace {
 
+/// The undriven friction is the same at every sliding speed of the scene.
+bool has_one_level(const scene::Scene& scene) {
+  constexpr double same = 0.02;
+  const auto friction_N = [&](double sliding_m_per_s) {
+    return scene::undriven_friction_N(scene.friction.law, scene.friction, sliding_m_per_s);
+  };
+  const double fastest_N = friction_N(scene.sliding.fastest_m_per_s());
+  const auto& profile = scene.sliding.profile;
+  return std::all_of(profile.begin(), profile.end(), [&](const scene::SpeedPoint& point) {
+    return std::abs(friction_N(point.velocity_m_per_s) - fastest_N) <= same * fastest_N;
+  });
+}
+
 bool has_true_map(const scene::Scene& scene, const NominalPlant& plant) {
   constexpr double light_friction = 0.02;  // of the drive
-  return scene::has_own_map(scene.friction.law) &&
-         scene.drive->waveform == scene::Waveform::cosine &&
+  return scene.drive->waveform == scene::Waveform::cosine && has_one_level(scene) &&
          plant.friction_N < light_friction * scene.max_drive_force_N();
 }
 

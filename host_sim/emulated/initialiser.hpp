@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "firmware/friction/inverse_table.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -109,6 +110,11 @@ class Initialiser {
   template <class Integer>
   static std::enable_if_t<std::is_integral_v<Integer>, std::string> of(Integer value) {
     return fmt::format("{}", +value);
+  }
+
+  /// The header of the part that has it names the enumeration; the number is cast to it.
+  static std::string of(friction::InverseForm form) {
+    return fmt::format("friction::InverseForm{{{}}}", static_cast<int>(form));
   }
 
   template <class Storage, int FractionBits, class Overflow>

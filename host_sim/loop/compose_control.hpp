@@ -115,8 +115,9 @@ std::unique_ptr<ControlPort> in_process(const ControlDesign& design) {
 template <class Scalar>
 auto map_of(const ControlDesign& design) {
   return configure::choose<
-      configure::Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>>>(
-      design.map == scene::FrictionMap::dahl);
+      configure::Choice<control::CoulombFeedforward<Scalar>, control::DahlFeedforward<Scalar>,
+                        control::TabulatedFeedforward<Scalar>>>(
+      static_cast<std::size_t>(design.map));
 }
 
 /// Few scenes name a slew limit or relearning: they share compositions that have both, the one that
@@ -131,6 +132,13 @@ template <class Scalar>
 using ExtrasChoice =
     configure::Choice<Extras<control::NoSlewLimit<Scalar>, control::NoRelearning<Scalar>>,
                       Extras<control::SlewLimit<Scalar>, control::PeriodicRelearning<Scalar>>>;
+
+/// Few scenes have a law whose map is tabulated: they have both too.
+template <class Scalar, class Feedforward, class Chosen>
+using FewerExtras =
+    std::conditional<std::is_same_v<Feedforward, control::TabulatedFeedforward<Scalar>>,
+                     Extras<control::SlewLimit<Scalar>, control::PeriodicRelearning<Scalar>>,
+                     Chosen>;
 
 /// Relearning, a target force, the current limit of a resonant loop and its scale are wide open where a scene does
 /// not name them.
@@ -240,7 +248,8 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
   return std::visit(
       [&](auto friction, auto feedforward, auto shaper,
           auto extras) -> std::unique_ptr<ControlPort> {
-        using Chosen = typename decltype(extras)::type;
+        using Chosen = typename FewerExtras<Scalar, typename decltype(feedforward)::type,
+                                            typename decltype(extras)::type>::type;
         using Parts =
             control::Parts<Scalar, typename decltype(friction)::type,
                            typename decltype(feedforward)::type, typename Chosen::Slew,

@@ -137,13 +137,10 @@ std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunR
         "This run has one plant and ignores [tolerance]. The command robust runs the loop over the "
         "plants within it.");
   }
-  const bool cosine = scene.drive->waveform == scene::Waveform::cosine;
-  if (!scene::has_own_map(scene.friction.law) || !cosine) {
-    all.push_back(fmt::format(
-        "The feedforward's map is that of a {} contact under a cosine; feedback corrects what {} "
-        "changes.",
-        scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl ? "Dahl" : "Coulomb",
-        cosine ? "the law" : "the waveform"));
+  if (scene.drive->waveform != scene::Waveform::cosine) {
+    all.emplace_back(
+        "The feedforward's map is that of the contact under a cosine; feedback corrects what the "
+        "waveform changes.");
   }
   for (std::string& note : configure::design_notes(result.control->design)) {
     all.push_back(std::move(note));

@@ -36,7 +36,6 @@ StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& 
       band_(scene.run.settling_band),
       tells_mismatch_(scene.sensor.force && design.maps_friction),
       senses_force_(scene.sensor.force),
-      has_map_(scene::has_own_map(scene.friction.law)),
       observes_vibration_(scene.sensor.vibration),
       resonant_(scene.resonant()),
       may_excite_itself_(may_excite_itself(scene) ? std::optional(scene) : std::nullopt),
@@ -147,8 +146,7 @@ bool StepMeter::stays(double since_s, const TargetSpan& span, const Tally& tally
 
 /// Without a force sensor the controller takes a held vibration for a ratio on target.
 bool StepMeter::holds_blindly(const TargetSpan& span, const Tally& tally) const {
-  return !senses_force_ && has_map_ && tally.velocity_wanted &&
-         stays(tally.velocity_settled_s, span, tally);
+  return !senses_force_ && tally.velocity_wanted && stays(tally.velocity_settled_s, span, tally);
 }
 
 StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const {

@@ -189,7 +189,6 @@ class StepMeter final : public loop::PeriodSink {
   double band_;
   bool tells_mismatch_;
   bool senses_force_;
-  bool has_map_;
   bool observes_vibration_;
   bool resonant_;
   std::optional<scene::Scene> may_excite_itself_;

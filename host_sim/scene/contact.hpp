@@ -19,8 +19,9 @@ struct ContactValues {
   double limit_N() const { return coefficient * normal_force_N; }
 };
 
-/// The closed-form friction-ratio maps that a controller is fed forward by.
-enum class FrictionMap { coulomb, dahl };
+/// The inverse friction-ratio maps that a controller is fed forward by: that of Coulomb, that of Dahl, and
+/// a table that is made with the design.
+enum class FrictionMap { coulomb, dahl, tabulated };
 
 /// Time is in 1/ω, displacement in L, force in m L ω², friction in Fc.
 struct PlantScales {

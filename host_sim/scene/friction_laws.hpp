@@ -75,14 +75,9 @@ inline bool vibrates_along(const FrictionLaw& law) {
   return vibration_of(law) == friction::Vibration::along;
 }
 
-/// The closed-form map that a controller is fed forward by.
+/// The map that a controller is fed forward by.
 constexpr FrictionMap friction_map(const FrictionLaw& law) {
   return std::visit([](const auto& any) { return any.map; }, law);
-}
-
-/// Whether that map is the law's own.
-constexpr bool has_own_map(const FrictionLaw& law) {
-  return std::visit([](const auto& any) { return any.map_is_own; }, law);
 }
 
 /// |F| <= Fc, and without Fc no friction.

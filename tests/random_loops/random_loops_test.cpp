@@ -110,7 +110,7 @@ TEST(RandomLoopsTest, BringADampedVibrationToItsVelocityWithinAMillisecond) {
       const double out_of_reach = row.number("out_of_reach");
       const double reached = row.number("steps") - out_of_reach;
       const double never = row.number("never_named") + row.number("never_unnamed") - out_of_reach;
-      EXPECT_GE(reached, 1400.0);
+      EXPECT_GE(reached, 1350.0);  // of 1500, or the rest says nothing
       EXPECT_GE(row.number("prompt"), (wrong ? 0.98 : 0.99) * reached);
       EXPECT_LE(never, 0.005 * reached);
       ++found;

@@ -1,16 +1,16 @@
 // Writes firmware/friction/dahl_inverse_table.hpp to the standard output: the closed-form
-// friction-ratio map, inverted by bisection on the grid of dahl_inverse_grid.hpp.
+// friction-ratio map, inverted by bisection on the grid of inverse_grid.hpp.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
-#include "firmware/friction/dahl_inverse_grid.hpp"
+#include "firmware/friction/inverse_grid.hpp"
 
 namespace {
 
 using sonoglide::friction::dahl_friction_ratio;
-using Grid = sonoglide::friction::DahlInverseGrid;
+using Grid = sonoglide::friction::InverseGrid;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int bisections = 60;
@@ -52,11 +52,11 @@ int main() {
   std::puts("/// Written by tools/generate/dahl_inverse_table.cpp; a test compares the two.");
   std::puts("#pragma once\n");
   std::puts("#include <cstdint>\n");
-  std::puts("#include \"firmware/friction/dahl_inverse_grid.hpp\"\n");
+  std::puts("#include \"firmware/friction/inverse_grid.hpp\"\n");
   std::puts("namespace sonoglide::friction {\n");
   std::puts("// clang-format off");
   std::puts("inline constexpr std::uint16_t");
-  std::puts("    dahl_inverse_table[DahlInverseGrid::rows][DahlInverseGrid::columns] = {");
+  std::puts("    dahl_inverse_table[InverseGrid::rows][InverseGrid::columns] = {");
   for (int row = 0; row < Grid::rows; ++row) {
     std::fputs("  {", stdout);
     for (int column = 0; column < Grid::columns; ++column) {

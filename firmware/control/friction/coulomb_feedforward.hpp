@@ -21,6 +21,7 @@ class CoulombFeedforward {
   struct Parameters {};
 
   explicit CoulombFeedforward(const Parameters&) {}
+  static constexpr void settle_at(const Parameters& /*parameters*/) {}
   void set_friction(const FrictionLevel<Scalar>&) {}
 
   /// Drive amplitude in [0, 1] at which the friction ratio is reached; the largest value where none

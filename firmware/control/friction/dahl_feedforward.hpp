@@ -28,6 +28,7 @@ class DahlFeedforward {
   };
 
   explicit DahlFeedforward(const Parameters& parameters) : parameters_(parameters) {}
+  static constexpr void settle_at(const Parameters& /*parameters*/) {}
 
   void set_friction(const FrictionLevel<Scalar>& friction) {
     const numeric::Split<Scalar>& force = parameters_.contact_force;

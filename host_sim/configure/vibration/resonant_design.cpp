@@ -6,12 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/control/friction/coulomb_feedforward.hpp"
-#include "firmware/control/friction/dahl_feedforward.hpp"
-#include "firmware/control/friction/friction_level.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/friction/inverse_design.hpp"
+#include "host_sim/configure/friction/vibration_map.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/sensor_noise.hpp"
 #include "host_sim/scene/bound.hpp"
@@ -55,9 +54,13 @@ TargetVelocities target_velocities(const scene::Scene& scene, const NominalPlant
   const VibrationMap map{scene::friction_map(scene.friction.law), most_m_per_s,
                          plant.contact_stiffness_N_per_m * most_m_per_s /
                              (start_rate_rad_per_s(scene) * plant.friction_N)};
+  const bool tabulated = is_tabulated(scene);
   TargetVelocities velocities;
   for (const double target : plant.target_ratios(*scene.controller)) {
-    const double velocity_m_per_s = map.velocity_m_per_s(target, fastest_m_per_s);
+    const double velocity_m_per_s =
+        tabulated && target < 1.0
+            ? std::min(required_vibration_m_per_s(scene, plant, target), most_m_per_s)
+            : map.velocity_m_per_s(target, fastest_m_per_s);
     velocities.lowest_m_per_s = std::min(velocities.lowest_m_per_s, velocity_m_per_s);
     if (velocity_m_per_s > 0.0) {
       velocities.lowest_driven_m_per_s =
@@ -215,24 +218,6 @@ double ResonantDesign::changing_periods() const {
   const double room = std::max(1.01, head_room);
   const double constants = -numeric::log2(1.0 - 1.0 / room) * 0.69314718055994531;
   return latency + constants * 2.0 * quality_factor / numeric::two_pi;
-}
-
-double VibrationMap::velocity_m_per_s(double friction_ratio,
-                                      double sliding_velocity_m_per_s) const {
-  const double speed = std::abs(sliding_velocity_m_per_s) / largest_m_per_s;
-  if (friction_ratio >= 1.0 || speed == 0.0) {
-    return 0.0;
-  }
-  if (speed >= 1.0) {
-    return largest_m_per_s;
-  }
-  if (kind == scene::FrictionMap::coulomb) {
-    const control::CoulombFeedforward<double> map({});
-    return largest_m_per_s * std::min(1.0, map.amplitude(0.5 * friction_ratio, speed));
-  }
-  control::DahlFeedforward<double> map({numeric::split(contact)});
-  map.set_friction(control::FrictionLevel<double>(1.0));
-  return largest_m_per_s * std::min(1.0, map.amplitude(0.5 * friction_ratio, speed));
 }
 
 double resonant_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {

@@ -53,17 +53,6 @@ struct ResonantDesign {
   static constexpr bool tells_mismatch() { return true; }
 };
 
-/// The inverse friction-ratio map of a feedforward, in SI units.
-struct VibrationMap {
-  scene::FrictionMap kind = scene::FrictionMap::dahl;
-  double largest_m_per_s = 0.0;
-  double contact = 0.0;  ///< Kt X/Fc at the largest velocity
-
-  /// Vibration velocity at which the ratio is reached; the largest where no smaller one reaches it,
-  /// 0 for a ratio of 1 and at standstill.
-  double velocity_m_per_s(double friction_ratio, double sliding_velocity_m_per_s) const;
-};
-
 /// The range of the vibration sensor.
 double resonant_full_scale_m_per_s(const scene::Scene& scene, const NominalPlant& plant);
 

@@ -45,8 +45,8 @@ FrictionReading friction_reading(const scene::Scene& scene, const NominalPlant& 
   const double speed_m_per_s = scene.sliding.fastest_m_per_s();
   FrictionReading reading;
   reading.speed = speed_m_per_s / velocity_m_per_s;
-  const bool dahl = scene::friction_map(scene.friction.law) == scene::FrictionMap::dahl;
-  reading.lambda = dahl ? plant.contact_stiffness_N_per_m * speed_m_per_s * period_s /
+  const bool elastic = scene::is_elastic(scene.friction.law);
+  reading.lambda = elastic ? plant.contact_stiffness_N_per_m * speed_m_per_s * period_s /
                               (numeric::two_pi * plant.friction_N)
                         : std::numeric_limits<double>::infinity();
   const bool backwards = slides_backwards(scene.sliding);

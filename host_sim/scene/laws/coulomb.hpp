@@ -19,7 +19,6 @@ struct Coulomb {
   using Core = friction::Coulomb<Scalar>;
   static constexpr bool elastic = false;
   static constexpr FrictionMap map = FrictionMap::coulomb;
-  static constexpr bool map_is_own = true;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

@@ -19,7 +19,6 @@ struct Dahl {
   using Core = friction::Dahl<Scalar>;
   static constexpr bool elastic = true;
   static constexpr FrictionMap map = FrictionMap::dahl;
-  static constexpr bool map_is_own = true;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

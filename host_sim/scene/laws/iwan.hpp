@@ -20,8 +20,7 @@ struct Iwan {
   template <class Scalar>
   using Core = friction::Iwan<Scalar>;
   static constexpr bool elastic = true;
-  static constexpr FrictionMap map = FrictionMap::dahl;
-  static constexpr bool map_is_own = false;
+  static constexpr FrictionMap map = FrictionMap::tabulated;
   static constexpr bool is_bounded = true;
   static constexpr std::string_view bound_broken = "an element's force > its limit";
   static constexpr int most_elements = 8;

@@ -20,8 +20,7 @@ struct LuGre {
   template <class Scalar>
   using Core = friction::LuGre<Scalar>;
   static constexpr bool elastic = true;
-  static constexpr FrictionMap map = FrictionMap::dahl;
-  static constexpr bool map_is_own = false;
+  static constexpr FrictionMap map = FrictionMap::tabulated;
   static constexpr bool is_bounded = false;
   static constexpr std::string_view bound_broken = "the bristles' force > Fs";
 

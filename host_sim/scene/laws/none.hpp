@@ -19,8 +19,8 @@ namespace sonoglide::scene::laws {
 ///                    law_cores.hpp
 ///   elastic          it yields like a spring before it slides: it takes contact_stiffness_N_per_m
 ///                    and initial_force_N, and its force is part of the state
-///   map              the closed-form map that a controller is fed forward by
-///   map_is_own       that map is this law's; else a report says that feedback makes up the rest
+///   map              how a controller is fed forward: by the inverse of the law's own map, tabulated
+///                    with the design where the controller has none of this law
 ///   is_bounded       |F| <= Fc, and as Fc goes to 0 so does the law to no friction: a profile of
 ///                    the friction may reach 0
 ///   undriven_N(contact, speed)  friction force of a steady slide at a speed >= 0 without vibration
@@ -40,7 +40,6 @@ struct None {
   using Core = friction::None<Scalar>;
   static constexpr bool elastic = false;
   static constexpr FrictionMap map = FrictionMap::coulomb;
-  static constexpr bool map_is_own = true;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

@@ -19,8 +19,7 @@ struct NormalCoulomb {
   template <class Scalar>
   using Core = friction::NormalCoulomb<Scalar>;
   static constexpr bool elastic = true;
-  static constexpr FrictionMap map = FrictionMap::coulomb;
-  static constexpr bool map_is_own = false;
+  static constexpr FrictionMap map = FrictionMap::tabulated;
   static constexpr bool is_bounded = false;
 
   double normal_contact_stiffness_N_per_m = 0.0;  ///< kz

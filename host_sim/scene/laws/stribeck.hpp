@@ -19,8 +19,7 @@ struct Stribeck {
   template <class Scalar>
   using Core = friction::Stribeck<Scalar>;
   static constexpr bool elastic = false;
-  static constexpr FrictionMap map = FrictionMap::coulomb;
-  static constexpr bool map_is_own = false;
+  static constexpr FrictionMap map = FrictionMap::tabulated;
   static constexpr bool is_bounded = false;
 
   double fall_s_per_m = 0.0;    ///< alpha

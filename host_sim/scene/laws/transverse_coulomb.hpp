@@ -18,8 +18,7 @@ struct TransverseCoulomb {
   template <class Scalar>
   using Core = friction::TransverseCoulomb<Scalar>;
   static constexpr bool elastic = false;
-  static constexpr FrictionMap map = FrictionMap::coulomb;
-  static constexpr bool map_is_own = false;
+  static constexpr FrictionMap map = FrictionMap::tabulated;
   static constexpr bool is_bounded = true;
 
   template <class Keys>

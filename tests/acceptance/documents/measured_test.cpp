@@ -83,6 +83,20 @@ TEST(MeasuredFigures, OfARampedDriveAreThoseOfItsTable) {
   }
 }
 
+TEST(MeasuredFigures, OfTheLawsAreThoseOfTheirTables) {
+  const std::string text = document();
+  const csv::Table notch = csv::read_file(source / "tests/random_loops/unseen.csv");
+  const csv::Table ramped = csv::read_file(source / "tests/random_loops/ramped.csv");
+  const csv::Table alone = csv::read_file(source / "tests/random_loops/alone.csv");
+  for (const char* law :
+       {"dahl", "coulomb", "lugre", "iwan", "stribeck", "transverse_coulomb", "normal_coulomb"}) {
+    const std::string line =
+        fmt::format("| `{}` | {} | {} | {} |", law, shares(loops_of(notch, "exact", law)),
+                    shares(loops_of(ramped, "exact", law)), shares(loops_of(alone, "exact", law)));
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  }
+}
+
 TEST(MeasuredFigures, OfABiasAreThoseOfItsTables) {
   const std::string text = document();
   const auto table = [](const char* name) {

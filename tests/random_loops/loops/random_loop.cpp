@@ -385,10 +385,6 @@ Cause cause_of(const RandomLoop& loop) {
       sensor.force_noise_N >= noisy * friction_N(loop)) {
     return Cause::coarse_sensor;
   }
-  if (loop.law != "dahl" && loop.law != "coulomb" && loop.law != "transverse_coulomb" &&
-      loop.law != "normal_coulomb") {
-    return Cause::foreign_map;
-  }
   return turn_error_rad(loop) < far_rad ? Cause::none : Cause::far_stiffness;
 }
 

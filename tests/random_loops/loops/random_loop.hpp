@@ -104,15 +104,13 @@ enum class Cause {
   multiple,          ///< the mode is within 0.13 of the carrier of zero or of a multiple
   slow_contact,      ///< the contact takes half a millisecond or more to forget
   coarse_sensor,     ///< 8 or 9 bits, below 5 kHz, or noise of 0.2 % of the friction or more
-  foreign_map,       ///< the law has no map of its own
   far_stiffness,     ///< the mode turns by 0.3 rad or more otherwise than believed in a period
   none
 };
-inline constexpr std::array<std::string_view, 7> cause_names = {"friction trusted but wrong",
+inline constexpr std::array<std::string_view, 6> cause_names = {"friction trusted but wrong",
                                                                 "mode next to a multiple",
                                                                 "slow contact",
                                                                 "coarse or slow sensor",
-                                                                "map of another law",
                                                                 "stiffness far off for the mode",
                                                                 "none of these"};
 Cause cause_of(const RandomLoop& loop);

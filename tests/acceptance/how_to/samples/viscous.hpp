@@ -18,8 +18,7 @@ struct Viscous {
   template <class Scalar>
   using Core = friction::Viscous<Scalar>;
   static constexpr bool elastic = false;
-  static constexpr FrictionMap map = FrictionMap::coulomb;
-  static constexpr bool map_is_own = false;
+  static constexpr FrictionMap map = FrictionMap::tabulated;
   static constexpr bool is_bounded = false;
 
   double film_s_per_m = 0.0;  ///< c: F = mu N c V

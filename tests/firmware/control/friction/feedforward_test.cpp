@@ -6,6 +6,7 @@
 
 #include "firmware/control/friction/coulomb_feedforward.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
+#include "firmware/control/friction/tabulated_feedforward.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
 #include "scalars.hpp"
 #include "tests/common/constants/pi.hpp"
@@ -92,6 +93,85 @@ TYPED_TEST(FeedforwardTest, DahlAsksForTheKnownForcesAtTable1) {
         feedforward.amplitude(scaled<TypeParam>(0.5 * ratio), scaled<TypeParam>(speed)));
     EXPECT_NEAR(amplitude * 1920.0, force_N, 0.01 * force_N);
   }
+}
+
+template <class Scalar>
+typename TabulatedFeedforward<Scalar>::Parameters tabulated(friction::InverseForm form,
+                                                            bool over_force, double reach) {
+  const auto split = [](double value) {
+    const numeric::Split<double> parts = numeric::split(value);
+    return numeric::Split<Scalar>{scaled<Scalar>(parts.mantissa), parts.exponent};
+  };
+  return {split(2.0), split(reach), over_force, form, {}};
+}
+
+// A table of one z: what is left is the form.
+TYPED_TEST(FeedforwardTest, ATableGivesTheVelocityOfItsForm) {
+  constexpr double reach = 3.7;
+  constexpr double z = 0.5;
+  struct Form {
+    friction::InverseForm form;
+    double (*velocity)(double ratio, double speed);
+  };
+  const Form forms[] = {
+      {friction::InverseForm::beyond_sliding,
+       [](double ratio, double v) { return v + reach * v / ratio * z * z; }},
+      {friction::InverseForm::over_ratio,
+       [](double ratio, double v) { return reach * v / ratio * z * z; }},
+      {friction::InverseForm::plain, [](double /*ratio*/, double v) { return reach * v * z * z; }}};
+  for (const Form& form : forms) {
+    auto parameters = tabulated<TypeParam>(form.form, false, reach);
+    for (auto& row : parameters.table) {
+      row.fill(1 << 14);
+    }
+    const TabulatedFeedforward<TypeParam> feedforward(parameters);
+    for (const double ratio : {0.05, 0.3, 0.7, 0.99}) {
+      for (const double speed : {0.01, 0.05, 0.3}) {
+        const double amplitude = numeric::to_real(
+            feedforward.amplitude(scaled<TypeParam>(0.5 * ratio), scaled<TypeParam>(speed)));
+        const double wanted = std::min(form.velocity(ratio, speed), 1.0);
+        EXPECT_NEAR(std::min(amplitude, 1.0), wanted, 1e-6) << ratio << ' ' << speed;
+      }
+    }
+    const double at_none =
+        numeric::to_real(feedforward.amplitude(TypeParam{}, scaled<TypeParam>(0.1)));
+    EXPECT_NEAR(at_none, form.form == friction::InverseForm::plain ? 0.1 * reach * z * z : 1.0,
+                1e-6);
+  }
+}
+
+// A row for each reduced travel: of the speed, or of the speed over the friction level that is learnt.
+TYPED_TEST(FeedforwardTest, ATableIsReadWhereTheFrictionLevelSays) {
+  auto parameters = tabulated<TypeParam>(friction::InverseForm::plain, true, 1.0);
+  for (std::size_t row = 0; row < parameters.table.size(); ++row) {
+    parameters.table[row].fill(static_cast<std::uint16_t>(256 * row));
+  }
+  const auto amplitude = [&](bool over_force, double level) {
+    parameters.over_force = over_force;
+    TabulatedFeedforward<TypeParam> feedforward(parameters);
+    feedforward.set_friction(FrictionLevel<TypeParam>(scaled<TypeParam>(level)));
+    return numeric::to_real(
+        feedforward.amplitude(scaled<TypeParam>(0.25), scaled<TypeParam>(0.25)));
+  };
+  // At a ratio of 1/2 and a speed of 1/4 the reduced travel is 1 over the level: row 1 + 4 * 4 is 1.
+  const auto of_row = [](int row) { return 0.25 * std::pow(row / 128.0, 2); };
+  EXPECT_NEAR(amplitude(true, 0.5), of_row(21), 1e-6);
+  EXPECT_NEAR(amplitude(true, 0.25), of_row(25), 1e-6);
+  EXPECT_NEAR(amplitude(false, 0.5), of_row(17), 1e-6);
+  EXPECT_NEAR(amplitude(false, 0.25), of_row(17), 1e-6);
+}
+
+TYPED_TEST(FeedforwardTest, ACopyReadsTheTableThatItSettlesAt) {
+  auto designed = tabulated<TypeParam>(friction::InverseForm::plain, false, 1.0);
+  designed.table[17].fill(1 << 14);
+  designed.table[18].fill(1 << 14);
+  auto elsewhere = designed;
+  TabulatedFeedforward<TypeParam> feedforward(elsewhere);
+  feedforward.settle_at(designed);
+  elsewhere.table = {};
+  const double amplitude =
+      numeric::to_real(feedforward.amplitude(scaled<TypeParam>(0.25), scaled<TypeParam>(0.25)));
+  EXPECT_NEAR(amplitude, 0.25 * 0.25, 1e-6);
 }
 
 TYPED_TEST(FeedforwardTest, BothGiveTheEndsOfTheMap) {

@@ -1,4 +1,5 @@
-/// The grid on which the inverse Dahl map is tabulated; shared by the table's generator and reader.
+/// The grid on which inverse friction-ratio maps are tabulated; shared by what makes and what reads a
+/// table.
 #pragma once
 
 namespace sonoglide::friction {
@@ -13,10 +14,12 @@ struct DyadicAxis {
   static constexpr int lines = 2 + (end_octave - first_octave) * cells_per_octave;
 };
 
-/// Axes of the table of z = √(ρ/r − ρ): a row for each reduced Dahl number κ' = λ/ρ, λ = κ r, and a
-/// column for each 1 − ρ. Along both axes z is as nearly straight as asin r. With z, r = ρ/(ρ + z²)
-/// stays below 1 and needs no sine.
-struct DahlInverseGrid {
+/// Axes of a table: a row for each reduced travel λ/ρ, λ in proportion to the sliding speed, and a column
+/// for each 1 − ρ. An entry is a z, the root of a vibration velocity.
+///
+/// Of Dahl's table z = √(ρ/r − ρ) and λ = κ r: along both axes z is as nearly straight as asin r. With z,
+/// r = ρ/(ρ + z²) stays below 1 and needs no sine. Of the other laws see InverseForm.
+struct InverseGrid {
   using Row = DyadicAxis<-4, 10>;
   using Column = DyadicAxis<-8, 0>;
   static constexpr int rows = Row::lines;
