@@ -29,6 +29,7 @@ struct Rates {
   double damper = 0.0;  ///< of the decay, in a plant without a spring
   double stuck = 0.0;   ///< of the mode while the contact sticks: a spring beside the plant's own
   double slide = 0.0;   ///< of the contact's decay to its limit, as fast as the body slides
+  double load = 0.0;    ///< of the decay of a load's velocity by its damper
 };
 
 double stiffest_N_per_m(const scene::Plant& plant) {
@@ -42,6 +43,9 @@ Rates rates_in(const scene::Scene& scene, double time_s) {
   Rates rates;
   rates.mode = time_s * std::sqrt(stiffness_N_per_m / mass_kg);
   rates.damper = time_s * scene.plant.damping_N_s_per_m / mass_kg;
+  if (scene.load) {
+    rates.load = time_s * scene.load->damping_N_s_per_m / scene.load->mass_kg;
+  }
   if (rubs(scene) && scene::is_elastic(scene.friction.law)) {
     rates.stuck =
         time_s *
@@ -65,6 +69,11 @@ std::string of_mode(const scene::Scene& scene, const Rates& rates, double time_s
 std::string of_damper(const scene::Scene& scene, const Rates& rates, double time_s) {
   return fmt::format("the damper stops the mass within m/c = {:.4g} s, 1/{:.4g} of one {}",
                      time_s / rates.damper, rates.damper, period_word(scene));
+}
+
+std::string of_load(const scene::Scene& scene, const Rates& rates, double time_s) {
+  return fmt::format("the damper of the load stops it within M/c = {:.4g} s, 1/{:.4g} of one {}",
+                     time_s / rates.load, rates.load, period_word(scene));
 }
 
 std::string of_stuck_contact(const scene::Scene& scene, const Rates& rates, double time_s) {
@@ -126,7 +135,11 @@ std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
                               CarrierGrid(scene).period_s() / scene.solver.step_s);
   }
   const Rates rates = rates_in(scene, CarrierGrid(scene).period_s());
-  if (std::max({rates.mode, rates.damper, rates.stuck}) < slow) {
+  const double plants_own = std::max({rates.mode, rates.damper, rates.stuck});
+  if (rates.load >= slow && rates.load > plants_own) {
+    return need + of_load(scene, rates, CarrierGrid(scene).period_s());
+  }
+  if (plants_own < slow) {
     if (rates.slide >= slow) {
       return need + of_sliding(rates, CarrierGrid(scene).period_s());
     }

@@ -84,6 +84,8 @@ class PeriodMap {
         length_m_(std::max(configure::plant_scales(scene).length_m,
                            sliding_m_per_s(scene) / rate_rad_per_s_)),
         period_(period_of(scene)),
+        stiffness_(scene.plant.stiffness_N_per_m /
+                   (scene.plant.mass_kg * rate_rad_per_s_ * rate_rad_per_s_)),
         normal_force_(scene) {}
 
   /// Nothing where the solver fails, and when it has taken all its steps.
@@ -120,6 +122,8 @@ class PeriodMap {
   std::vector<double> plant_memory() const { return plant_->memory(); }
   std::uint64_t periods() const { return periods_; }
   plant::Cost cost() const { return plant_->cost(); }
+  /// Ks / (m omega^2).
+  double stiffness() const { return stiffness_; }
   plant::Error error() const { return error_; }  ///< last of the solver in any of the periods
 
   /// @param load  0: the contact remembers nothing of its past; 1: it has slid on to its limits
@@ -154,6 +158,7 @@ class PeriodMap {
   double rate_rad_per_s_;
   double length_m_;  ///< of the vibration, or of one that reverses the contact where that is larger
   std::vector<Stretch> period_;
+  double stiffness_;
   NormalForce normal_force_;
   std::uint64_t periods_ = 0;
   plant::Error error_ = plant::Error::none;

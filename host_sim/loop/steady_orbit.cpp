@@ -32,11 +32,27 @@ double size_of_motion(const Vector& state) {
   return std::max(1.0, std::hypot(state[0], state[1]));
 }
 
+/// How far a component of the state is moved for a difference. Neither the velocity nor what a spring
+/// makes of the displacement in a carrier period may change by more than that part of the velocities:
+/// on a soft spring the displacement under the mean friction is far larger than they are, and a part of
+/// it would turn the sliding.
+double moved(const PeriodMap& map, const Vector& at, int component, double difference) {
+  if (component >= motion_components) {
+    return difference;
+  }
+  const double velocity = std::max(1.0, std::abs(at[1]));
+  if (component == 1) {
+    return difference * velocity;
+  }
+  const double harmless = velocity / (numeric::two_pi * std::abs(map.stiffness()));
+  return difference * std::max(1.0, std::min(size_of_motion(at), harmless));
+}
+
 /// dP/dz by central differences, one-sided where the contact is at a limit.
 std::optional<Matrix> derivative(PeriodMap& map, const Vector& at, double difference) {
   Matrix result(at.size(), at.size());
   for (int i = 0; i < at.size(); ++i) {
-    const double part = i < motion_components ? difference * size_of_motion(at) : difference;
+    const double part = moved(map, at, i, difference);
     Vector low = at;
     Vector high = at;
     low[i] -= part;

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"
 #include "host_sim/report/run_notes.hpp"
+#include "host_sim/report/self_excitation.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
@@ -144,8 +150,9 @@ ordered_json signal(const numeric::SignalRecord& record) {
 
 std::vector<std::string> notes(const scene::Scene& scene, const loop::RunResult& result) {
   std::vector<std::string> all = configure::design_notes(result.control->design);
-  for (std::string& note : run_notes(scene, result)) {
-    all.push_back(std::move(note));
+  for (std::vector<std::string>& more :
+       std::array{self_excitation_notes(scene), run_notes(scene, result)}) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
   }
   return all;
 }

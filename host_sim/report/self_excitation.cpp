@@ -49,13 +49,15 @@ std::vector<std::string> self_excitation_notes(const scene::Scene& scene) {
       continue;
     }
     const steady::Requirement needed = steady::require_ratio(scene, sliding_m_per_s, ratio);
-    if (needed.limit == steady::Obstacle::unstable) {
+    const bool undriven =
+        needed.limit == steady::Obstacle::undriven && excites_itself(scene, step.time_s, 0.0);
+    if (needed.limit == steady::Obstacle::unstable || undriven) {
       notes.push_back(fmt::format(
           "The target {:.4g}{} at {:.4g} m/s takes a drive of {:.4g} N, under which falling friction "
           "feeds an oscillation. sonoglide stability {}.toml --self-excited tells the windows of the "
           "drive that quench it.",
-          step.value, unit.is_force() ? " N" : "", sliding_m_per_s, needed.unstable_force_N,
-          scene.name));
+          step.value, unit.is_force() ? " N" : "", sliding_m_per_s,
+          undriven ? 0.0 : needed.unstable_force_N, scene.name));
     }
   }
   return notes;

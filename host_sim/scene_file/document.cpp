@@ -128,6 +128,9 @@ void Document::remove(const OverriddenKey& target) {
   const auto table = tables_.find(target.table);
   if (table != tables_.end()) {
     table->second.entries.erase(target.key);
+    if (table->second.entries.empty()) {
+      tables_.erase(table);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "host_sim/loop/failure.hpp"
 #include "host_sim/loop/steady_orbit.hpp"
 #include "host_sim/steady/root.hpp"
+#include "host_sim/steady/self_excitation.hpp"
 
 namespace sonoglide::steady {
 namespace {
@@ -167,11 +168,14 @@ Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, dou
 }
 
 double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio) {
+  if (friction_falls(scene.friction)) {
+    return undefined;
+  }
   const double most_N = scene.max_drive_force_N();
   // Somewhere below the speed at which the vibration no longer turns the sliding round.
   const double guess_m_per_s =
       ratio * configure::peak_vibration_m_per_s(scene.plant, scene.drive->frequency_Hz, most_N);
-  // The faster the slide, the higher the ratio.
+  // The faster the slide, the higher the ratio, unless the friction falls.
   OrbitRatio orbit_ratio(scene);
   const auto shortfall = [&](double sliding_m_per_s) {
     return ratio - orbit_ratio(sliding_m_per_s, most_N);

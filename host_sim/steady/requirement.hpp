@@ -118,7 +118,8 @@ struct Requirement {
 /// @param ratio            in (0, 1]
 Requirement require_ratio(const scene::Scene& scene, double sliding_m_per_s, double ratio);
 
-/// Fastest sliding at which the whole drive holds a ratio [m/s]; NaN where none is found.
+/// Fastest sliding at which the whole drive holds a ratio [m/s]; NaN where none is found, and for a law
+/// whose friction falls with the velocity: less drive may then hold it at a higher one.
 double fastest_sliding_m_per_s(const scene::Scene& scene, double ratio);
 
 }  // namespace sonoglide::steady

@@ -52,9 +52,9 @@ std::vector<std::string> start_notes(const Plan& plan) {
   return {fmt::format(
       "The runs begin at a given state, and damping leaves the free vibration of the natural mode "
       "in the means: at {} its velocity is up to {:.3g} % of the driven one when the window "
-      "begins. "
-      "run.start = \"steady\" begins without it.",
-      plan.describe(where), 100.0 * most)};
+      "begins.{}",
+      plan.describe(where), 100.0 * most,
+      plan.experiment(where).plant.load ? "" : " run.start = \"steady\" begins without it.")};
 }
 
 }  // namespace sonoglide::sweep

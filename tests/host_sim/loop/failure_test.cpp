@@ -108,6 +108,18 @@ TEST(FailureTest, TheTrueCauseOfManyStepsIsNamed) {
   }
 }
 
+TEST(FailureTest, ALoadsDamperThatIsTooFastIsNamed) {
+  scene::Scene scene = table_1();
+  scene.sliding = {};
+  scene.load.emplace();
+  scene.load->mass_kg = 1.0;
+  scene.load->damping_N_s_per_m = 1e12;
+  scene.load->initial_velocity_m_per_s = 0.01;
+  const std::string message = failure(scene);
+  EXPECT_NE(message.find("the damper of the load stops it within M/c = 1e-12 s"), std::string::npos)
+      << message;
+}
+
 /// What a step of rk4_event passes over, and a solver that would not.
 struct LongStep {
   double stiffness_N_per_m;

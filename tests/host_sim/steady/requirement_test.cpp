@@ -181,5 +181,11 @@ TEST(FastestSlidingTest, NeedsTheWholeDrive) {
   }
 }
 
+TEST(FastestSlidingTest, IsNotToldOfFrictionThatFalls) {
+  scene::Scene falling = coulomb();
+  falling.friction.law = scene::laws::Stribeck{2.0, 7.5};
+  EXPECT_TRUE(std::isnan(fastest_sliding_m_per_s(falling, 0.3)));
+}
+
 }  // namespace
 }  // namespace sonoglide::steady::requirement_test

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <random>
 #include <vector>
 
@@ -93,6 +94,30 @@ TEST(SteadySlidingTest, UndrivenGrowsByTheSlopeOfItsFriction) {
     EXPECT_NEAR(found.multiplier, expected, 1e-7);
     EXPECT_NEAR(found.averaged_multiplier, expected, 1e-10);
     EXPECT_EQ(found.fate(), 2.0 > 22.5 * sliding * sliding ? Fate::grows : Fate::dies_out);
+  }
+}
+
+/// A soft spring under the friction is far longer than the vibration; a difference that is a part of
+/// its length would turn the sliding.
+TEST(SteadySlidingTest, IsExactOnAnySpring) {
+  for (const double stiffness_N_per_m : {1e6, 1e3, 80.0, 8.0, 0.1}) {
+    SCOPED_TRACE(stiffness_N_per_m);
+    scene::Scene scene = published_belt();
+    scene.plant.stiffness_N_per_m = stiffness_N_per_m;
+    const double reversing_N = force_N(scene, belt_m_per_s);
+    for (const double drive_N : {0.0, 0.5 * reversing_N}) {
+      const SteadySliding found = steady_sliding(scene, belt_m_per_s, drive_N);
+      const double squares =
+          3.0 * belt_m_per_s * belt_m_per_s + 1.5 * std::pow(found.vibration_m_per_s, 2);
+      const double damping = published.normal_N * (published.beta * squares - published.alpha);
+      const std::complex<double> root =
+          std::sqrt(std::complex<double>(damping * damping - 4.0 * stiffness_N_per_m));
+      EXPECT_NEAR(std::log(found.multiplier), 0.5 * (root.real() - damping) / 2e3, 1e-6);
+    }
+    const std::vector<DriveWindow> windows = drive_windows(scene, belt_m_per_s, 2.0 * reversing_N);
+    ASSERT_GE(windows.size(), 2U);
+    EXPECT_EQ(windows.front().fate, Fate::grows);
+    EXPECT_NEAR(windows.front().high_N, reversing_N, 1e-3 * reversing_N);
   }
 }
 
