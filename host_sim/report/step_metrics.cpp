@@ -116,7 +116,11 @@ void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tal
 
 void StepMeter::take_steady(const loop::Period& period, Tally& tally) const {
   const double held = unit_.held(period);
-  tally.held_sum += held;
+  // A period in which the sliding turns has no ratio.
+  if (std::isfinite(held)) {
+    tally.held_sum += held;
+    ++tally.held_periods;
+  }
   tally.drive_sum_N += period.drive_amplitude_N;
   tally.lowest = std::min(tally.lowest, held);
   tally.highest = std::max(tally.highest, held);
@@ -159,7 +163,7 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
     metrics.settling_time_s = tally.settled_s - span.begin_s;
   }
   metrics.overshoot = tally.periods > 0 ? tally.overshoot : undefined;
-  metrics.steady_error = tally.held_sum / count - span.target;
+  metrics.steady_error = tally.held_sum / static_cast<double>(tally.held_periods) - span.target;
   metrics.ripple = tally.lowest <= tally.highest ? 0.5 * (tally.highest - tally.lowest) : undefined;
   metrics.drive_amplitude_N = tally.drive_sum_N / count;
   metrics.limit = prevailing_limit(tally.limit_count, settled);

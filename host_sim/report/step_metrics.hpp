@@ -153,6 +153,7 @@ class StepMeter final : public loop::PeriodSink {
     std::uint64_t periods = 0;
     // Of the steady part:
     std::uint64_t steady_periods = 0;
+    std::uint64_t held_periods = 0;
     double held_sum = 0.0;
     double drive_sum_N = 0.0;
     double lowest = std::numeric_limits<double>::infinity();

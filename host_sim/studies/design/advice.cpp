@@ -198,10 +198,10 @@ std::string lower_edge(const DesignStudy& study, const Detuning& detuning) {
 std::string position(const DesignStudy& study, const Detuning& detuning) {
   const double allowed = study.task.scene.run.settling_band;
   if (study.tuning > detuning.sensitive->high) {
-    return "above resonance, outside the sensitive band";
+    return "driven below resonance, outside the sensitive band";
   }
   if (study.tuning < detuning.sensitive->low) {
-    return "below resonance, outside the sensitive band; a stiffer spring saves force: " +
+    return "driven above resonance, outside the sensitive band; a stiffer spring saves force: " +
            lower_edge(study, detuning);
   }
   if (detuning.change_by_stiffness <= allowed) {

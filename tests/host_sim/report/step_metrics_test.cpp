@@ -234,6 +234,11 @@ TEST(StepMetricsTest, SteadyErrorAndRippleAreThoseOfTheLastQuarter) {
   EXPECT_NEAR(step.ripple, 0.003, 1e-12);
 }
 
+TEST(StepMetricsTest, APeriodWithoutARatioIsLeftOutOfTheSteadyError) {
+  const StepMetrics step = one_step(0.5, [](int k) { return k == 90 ? std::nan("") : 0.502; });
+  EXPECT_NEAR(step.steady_error, 0.002, 1e-12);
+}
+
 TEST(StepMetricsTest, DriveAmplitudeIsTheMeanOverTheLastQuarter) {
   const Scene scene = made_up_scene({{0.0, 0.5}}, 0.1);
   std::vector<loop::Period> periods = made_up_run(scene, [](int) { return 0.5; });

@@ -69,9 +69,9 @@ TEST(AdviceTest, SaysWhereTheSceneStandsFromResonance) {
   const SpeedRange speeds{0.02672, 0.02672};
   EXPECT_TRUE(contains(
       all_advice(study_of(table_1(), {0.5}, speeds)),
-      "below resonance, outside the sensitive band; a stiffer spring saves force: at 0.6"));
+      "driven above resonance, outside the sensitive band; a stiffer spring saves force: at 0.6"));
   EXPECT_TRUE(contains(all_advice(study_of(retuned(table_1(), 3.0), {0.5}, speeds)),
-                       "above resonance, outside the sensitive band"));
+                       "driven below resonance, outside the sensitive band"));
   EXPECT_TRUE(contains(all_advice(study_of(retuned(table_1(), 0.95), {0.5}, speeds)),
                        "too near to resonance, 1 % of Ks moves ratio 0.5 by 0.1"));
   scene::Scene damped = resonant();
