@@ -82,10 +82,11 @@ class Loop {
   double wanted_ratio() const { return wanted_ratio_; }
   /// Of the scene, for the period that comes next.
   double coming_ratio() const {
-    double wanted = schedule_.front().friction_ratio;
+    const auto every = static_cast<std::uint64_t>(experiment_.plant.controller->every_periods);
+    double wanted = schedule_.front().target;
     for (const loop::ScheduledTarget& each : schedule_) {
-      if (each.place <= periods_) {
-        wanted = each.friction_ratio;
+      if (each.place <= periods_ / every) {
+        wanted = each.target;
       }
     }
     return wanted;

@@ -5,6 +5,7 @@
 
 #include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene_file/key.hpp"
 #include "host_sim/scene_file/keys.hpp"
