@@ -141,7 +141,7 @@ void check_presence(const TableCursor& cursor, const scene::Scene& scene) {
     cursor.fail("missing; required: a table [drive] for the [controller] to act by");
   }
   for (const Use& use : table.uses) {
-    if (cursor.present() && !use.holds(scene)) {
+    if (cursor.present() && !cursor.emptied() && !use.holds(scene)) {
       cursor.fail(fmt::format("not used {}; remove it", use.reason(scene)));
     }
   }

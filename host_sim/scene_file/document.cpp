@@ -127,10 +127,7 @@ void Document::apply_override(const std::string& text, std::size_t ordinal) {
 void Document::remove(const OverriddenKey& target) {
   const auto table = tables_.find(target.table);
   if (table != tables_.end()) {
-    table->second.entries.erase(target.key);
-    if (table->second.entries.empty()) {
-      tables_.erase(table);
-    }
+    table->second.lost_keys |= table->second.entries.erase(target.key) > 0;
   }
 }
 

@@ -33,6 +33,7 @@ struct SceneTable {
   std::string name;
   Location place;
   std::map<std::string, GivenValue, std::less<>> entries;
+  bool lost_keys = false;  ///< some of them to --set
 };
 
 /// Values live as long as the document. It does not change: any number of threads may read it.

@@ -27,6 +27,8 @@ class TableCursor {
 
   const KeyTable& keys() const { return keys_; }
   bool present() const { return table_ != nullptr; }
+  /// Whether --set has removed every key that it had.
+  bool emptied() const { return present() && table_->lost_keys && table_->entries.empty(); }
   bool has(std::string_view key) const { return find(key) != nullptr; }
   /// Null where absent.
   const GivenValue* find(std::string_view key) const;

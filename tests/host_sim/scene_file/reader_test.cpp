@@ -331,6 +331,14 @@ TEST(ReaderTest, ALoadTakesThePlaceOfTheSliding) {
   EXPECT_EQ(scene.solver.method, scene::method_of<scene::solvers::EventTaylor>);
 }
 
+TEST(ReaderTest, ATableThatHasLostItsKeysIsGone) {
+  const std::vector<std::string> load = {"load.mass_kg=0.5", "load.initial_velocity_m_per_s=0.01"};
+  std::vector<std::string> instead = {"sliding.velocity_m_per_s="};
+  instead.insert(instead.end(), load.begin(), load.end());
+  EXPECT_TRUE(read_text(shortest_open_loop, "s", instead).load.has_value());
+  EXPECT_THROW(read_text(shortest_open_loop, "s", load), SceneError);
+}
+
 TEST(ReaderTest, TheErrorCarriesItsParts) {
   try {
     read_text("[plant]\n  mass_kg = -1\n", "dir/bad.toml");
