@@ -36,9 +36,8 @@ Scalar dahl_vibration_velocity(Scalar half_ratio, Scalar speed,
   const numeric::Floating<Scalar> stretched =
       numeric::quotient(numeric::floating(speed), numeric::floating(half_ratio));
   const GridPosition row = position<Grid::Row>(numeric::product(half_travel, stretched));
-  return limited_sum(
-      speed, stretched,
-      square<Scalar>(interpolate(dahl_inverse_table, row, column(half_ratio))));
+  return limited_sum(speed, stretched,
+                     square<Scalar>(interpolate(dahl_inverse_table, row, column(half_ratio))));
 }
 
 }  // namespace sonoglide::friction

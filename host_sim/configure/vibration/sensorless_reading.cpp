@@ -47,8 +47,8 @@ FrictionReading friction_reading(const scene::Scene& scene, const NominalPlant& 
   reading.speed = speed_m_per_s / velocity_m_per_s;
   const bool elastic = scene::is_elastic(scene.friction.law);
   reading.lambda = elastic ? plant.contact_stiffness_N_per_m * speed_m_per_s * period_s /
-                              (numeric::two_pi * plant.friction_N)
-                        : std::numeric_limits<double>::infinity();
+                                 (numeric::two_pi * plant.friction_N)
+                           : std::numeric_limits<double>::infinity();
   const bool backwards = slides_backwards(scene.sliding);
   reading.sign = (backwards ? -1.0 : 1.0) * vibration_sign(scene.friction.sign_convention);
   reading.chain = chain_of(scene.sensor, period_s);

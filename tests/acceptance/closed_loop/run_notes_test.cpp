@@ -54,11 +54,11 @@ TEST(RunNotesTest, AnOpenContactIsToldInOpenLoop) {
 // The controller knows what vibration opens the contact that it was designed for; this one has a load
 // that is lighter.
 TEST(RunNotesTest, AnOpenContactIsALimitInClosedLoop) {
-  const Told told = run(
-      "normal_open_loop",
-      "--set drive.force_amplitude_N= --set run.start= --set drive.max_force_amplitude_N=3000 "
-      "--set controller.arithmetic=float64 --set 'controller.target_friction_ratio=[[0, 0.1]]' "
-      "--set true_values.friction.normal_force_N=2.5");
+  const Told told =
+      run("normal_open_loop",
+          "--set drive.force_amplitude_N= --set run.start= --set drive.max_force_amplitude_N=3000 "
+          "--set controller.arithmetic=float64 --set 'controller.target_friction_ratio=[[0, 0.1]]' "
+          "--set true_values.friction.normal_force_N=2.5");
   EXPECT_TRUE(names(told.summary, "contact_lost", "simulation")) << told.terminal;
   EXPECT_GT(told.summary["control"]["limited_periods"]["contact_lost"], 0);
   EXPECT_NE(told.terminal.find("contact_lost, not detected by the controller"), std::string::npos);

@@ -107,12 +107,9 @@ enum class Cause {
   far_stiffness,     ///< the mode turns by 0.3 rad or more otherwise than believed in a period
   none
 };
-inline constexpr std::array<std::string_view, 6> cause_names = {"friction trusted but wrong",
-                                                                "mode next to a multiple",
-                                                                "slow contact",
-                                                                "coarse or slow sensor",
-                                                                "stiffness far off for the mode",
-                                                                "none of these"};
+inline constexpr std::array<std::string_view, 6> cause_names = {
+    "friction trusted but wrong", "mode next to a multiple",        "slow contact",
+    "coarse or slow sensor",      "stiffness far off for the mode", "none of these"};
 Cause cause_of(const RandomLoop& loop);
 
 /// What a loop knows of its vibration.
