@@ -28,7 +28,8 @@ inline std::uint16_t whole_periods(double periods) {
 inline double latency_periods(const scene::Scene& scene) {
   const int carriers = 1 + scene.drive->delay_periods + scene.sensor.delay_periods;
   const int every = scene.controller->every_periods;
-  return (carriers + every - 1) / every;
+  const int steps = (carriers + every - 1) / every;
+  return steps;
 }
 
 /// Until the contact has forgotten.

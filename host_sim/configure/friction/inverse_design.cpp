@@ -55,7 +55,7 @@ scene::Friction scaled_friction(const scene::Friction& contact, double factor,
   }
   // The part of the friction that no normal force makes is viscous.
   constexpr double least_dry = 0.05;
-  scene::ContactValues unloaded = contact;
+  scene::Friction unloaded = contact;
   unloaded.normal_force_N = 0.0;
   const double viscous_N = scene::undriven_friction_N(contact.law, unloaded, sliding_m_per_s);
   const double all_N = scene::undriven_friction_N(contact.law, contact, sliding_m_per_s);
@@ -239,7 +239,7 @@ InverseDesign design_inverse(const scene::Scene& scene, const NominalPlant& plan
   design.over_force = is_constant(scene) || scene::is<scene::laws::Iwan>(scene.friction.law);
   design.form = form_of(scene.friction.law);
   const Survey survey(scene, plant, design);
-  std::array<Nodes, static_cast<std::size_t>(Grid::rows)> roots;
+  std::array<Nodes, static_cast<std::size_t>(Grid::rows)> roots{};
   double largest = 1e-6;  // of a friction that no vibration lowers
   for (std::size_t row = 0; row < roots.size(); ++row) {
     roots[row] = balanced(survey.at_row(line<Grid::Row>(static_cast<int>(row))));
@@ -248,11 +248,11 @@ InverseDesign design_inverse(const scene::Scene& scene, const NominalPlant& plan
   constexpr double below_one = 1.0 - 0x1p-14;
   design.reach = largest / below_one * (largest / below_one);
   for (std::size_t row = 0; row < roots.size(); ++row) {
-    std::transform(roots[row].begin(), roots[row].end(), design.table[row].begin(),
-                   [&](double root) {
-                     const double z = root / largest * below_one;
-                     return static_cast<std::uint16_t>(std::ldexp(z, Grid::entry_bits) + 0.5);
-                   });
+    std::transform(
+        roots[row].begin(), roots[row].end(), design.table[row].begin(), [&](double root) {
+          const double z = root / largest * below_one;
+          return static_cast<std::uint16_t>(std::lround(std::ldexp(z, Grid::entry_bits)));
+        });
   }
   return design;
 }
