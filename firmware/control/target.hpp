@@ -59,6 +59,8 @@ class RatioTarget {
 ///
 /// A friction above the one believed is no sign of a broken sensor here; one that pulls still is.
 ///
+/// Fixed point: products are limited, and nothing overflows.
+///
 /// The functions are those of a RatioTarget.
 template <class Scalar>
 class ForceTarget {

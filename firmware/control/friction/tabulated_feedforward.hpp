@@ -62,6 +62,9 @@ class TabulatedFeedforward {
   /// nearest ratio or the largest value.
   /// @param half_ratio  friction ratio on base 2, in [0, 1/2].
   /// @param speed       |Vt|, base the peak vibration velocity at full drive; > 0.
+  /// Error: the contact then has the ratio within 0.008, from a ratio of 0.1 on, in float64, float32 and
+  /// Q31; at a level or a speed other than that of the design 0.01. In Q15 twice that, for speeds from
+  /// 0.05, and within 0.1 of the lowest ratio that the contact has (InverseDesignTest).
   Scalar amplitude(Scalar half_ratio, Scalar speed) const {
     return friction::tabulated_vibration_velocity(half_ratio, speed, half_travel_, reach_, form_,
                                                   *table_);

@@ -91,8 +91,8 @@ using Roots = std::array<double, static_cast<std::size_t>(2 * Grid::columns - 1)
 using Nodes = std::array<double, static_cast<std::size_t>(Grid::columns)>;
 
 /// Nodes between which straight lines are as far above the curve as below: each is moved by half of what
-/// the curve is beside the lines that it begins and ends, but not beyond its neighbours. The last one, ρ = 0, is where the line through the
-/// two places before it goes.
+/// the curve is beside the lines that it begins and ends, but not beyond its neighbours. The last one,
+/// ρ = 0, is where the line through the two places before it goes.
 Nodes balanced(Roots dense) {
   constexpr std::size_t last = Grid::columns - 1;
   dense[2 * last] = std::max(0.0, 2.0 * dense[2 * last - 1] - dense[2 * last - 2]);

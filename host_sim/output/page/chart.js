@@ -2,6 +2,9 @@
 
 // One chart: its data, what of it is on show, and its drawing as SVG.
 class Chart {
+  static letter = 7.2;      // width of one, px
+  static rightMargin = 14;  // px
+
   // @param data  as chart_json() writes it
   constructor(figure, data) {
     this.figure = figure;
@@ -122,17 +125,16 @@ class Chart {
   }
 
   layOut(width, height) {
-    const letter = 7.2;
     const values = (axis) => this[axis].map((end) => this.value(axis, end));
     this.x = this.shown.x;
     this.y = this.yRange();
     if (this.data.equalScales) this.makeScalesEqual((width - 70) / (height - 34));
     this.yTicks = this.ticks('y', values('y'), height / 40);
     const longest = (ticks) => Math.max(0, ...ticks.map(({text}) => text.length));
-    const left = Math.min(Math.max(34, letter * longest(this.yTicks.ticks) + 12), 0.4 * width);
-    this.area = {left, top: 8, width: Math.max(40, width - left - 14), height: height - 34};
+    const left = Math.min(Math.max(34, Chart.letter * longest(this.yTicks.ticks) + 12), 0.4 * width);
+    this.area = {left, top: 8, width: Math.max(40, width - left - Chart.rightMargin), height: height - 34};
     this.xTicks = this.ticks('x', values('x'), this.area.width / 80);
-    const wanted = letter * longest(this.xTicks.ticks) + 14;
+    const wanted = Chart.letter * longest(this.xTicks.ticks) + 14;
     if (this.axes.x.ticks.length === 0 && wanted > 80) {
       this.xTicks = this.ticks('x', values('x'), this.area.width / wanted);
     }
@@ -171,11 +173,14 @@ class Chart {
   }
 
   axisTexts() {
-    const {left, top, height} = this.area;
+    const {left, top, width, height} = this.area;
     const bottom = top + height;
+    // The last number stays whole at the edge of the chart.
+    const middle = (at, text) =>
+      Math.min(this.px(at), left + width + Chart.rightMargin - Chart.letter * text.length / 2);
     const aslant = (x) => this.aslant ? ` transform="rotate(-35 ${x} ${bottom + 16})"` : '';
     return this.xTicks.ticks.filter(({text}) => text !== '').map(({at, text}) => {
-      const x = this.px(at).toFixed(1);
+      const x = (this.aslant ? this.px(at) : middle(at, text)).toFixed(1);
       return `<text x="${x}" y="${bottom + 18}" text-anchor="${this.aslant ? 'end' : 'middle'}"${aslant(x)}>` +
           `${Look.svg(text, this.axes.x.verbatim)}</text>`;
     }).join('') + this.yTicks.ticks.filter(({text}) => text !== '').map(({at, text}) =>

@@ -167,20 +167,6 @@ TEST_F(PilCommandTest, SaysWhatToInstall) {
 const std::string for_pico = "pil " + scene_file("target_step_q31") +
                              " --board pico --set sensor.adc_bits=12 --set sensor.velocity_bits=12";
 
-TEST_F(PilCommandTest, AScenesOwnImageOnThePicoHasTheWorkstationsCommands) {
-  if (!std::filesystem::exists(SONOGLIDE_SOURCE_TREE "/build/npm/node_modules/rp2040js")) {
-    GTEST_SKIP() << "needs the npm package rp2040js";
-  }
-  for (const char* samples : {"", " --set sensor.samples_per_period=4"}) {
-    const nlohmann::json summary = summary_of(folder_, for_pico + samples);
-    EXPECT_EQ(summary.at("pil").at("same_as_workstation"), true);
-    EXPECT_EQ(summary.at("pil").at("board"), "pico");
-    EXPECT_GT(summary.at("pil").at("instructions_per_step").at("min"), 400);
-    EXPECT_LE(summary.at("pil").at("instructions_per_step").at("max"), 1900);
-    EXPECT_GT(summary.at("pil").at("stack_bytes_bound"), 100);
-  }
-}
-
 TEST_F(PilCommandTest, ThePicoRefusesWhatItDoesNotHave) {
   for (const auto& [setting, finding] : std::vector<std::pair<std::string, std::string>>{
            {"controller.arithmetic=float32", "has no time for floating point"},

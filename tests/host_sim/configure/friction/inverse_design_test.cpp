@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -15,28 +13,17 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/friction/mean_friction.hpp"
+#include "tests/common/dice.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure::inverse_design_test {
 namespace {
 
+using tests::Dice;
 using tests::followed_ratio;
 using tests::pi;
 using tests::table_1_closed_loop;
 using tests::vibration_velocity_m_per_s;
-
-/// The same numbers on every machine.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
-  }
-  double decades(double low, double high) { return low * std::pow(high / low, between(0.0, 1.0)); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 const std::vector<scene::FrictionLaw> tabulated_laws = {
     scene::laws::LuGre{}, scene::laws::Iwan{}, scene::laws::Stribeck{},

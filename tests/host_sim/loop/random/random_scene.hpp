@@ -2,29 +2,13 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <random>
 #include <variant>
 
 #include "host_sim/scene/scene.hpp"
 #include "tests/common/constants/pi.hpp"
+#include "tests/common/dice.hpp"
 
 namespace sonoglide::tests {
-
-/// The same numbers on every machine.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11U) * 0x1p-53;
-  }
-  double decades(double low, double high) { return low * std::pow(high / low, between(0.0, 1.0)); }
-  bool chance(double probability) { return between(0.0, 1.0) < probability; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// What the draw of a law's own keys is in proportion to.
 struct Sizes {
