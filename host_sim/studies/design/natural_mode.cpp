@@ -26,6 +26,12 @@ constexpr double carrier_step = 0.015;  // relative
 constexpr int plants_a_carrier = 8;
 constexpr std::size_t most_targets = 3;
 
+/// Of a target in the loops that are tried: a slow mode has a few cycles to come to rest.
+int step_periods(double natural_per_carrier) {
+  constexpr double cycles = 10.0;
+  return static_cast<int>(std::clamp(std::ceil(cycles / natural_per_carrier), 100.0, 2000.0));
+}
+
 /// The loop of a scene, fed forward from rest, on a friction that it knows.
 scene::Scene fed_forward(scene::Scene scene) {
   scene.controller->vibration.reset();
@@ -42,7 +48,7 @@ scene::Scene fed_forward(scene::Scene scene) {
 
 /// The scene with a few of its targets, each for a while, at one speed.
 scene::Scene trial(scene::Scene scene, const std::vector<double>& ratios, double sliding_m_per_s,
-                   double frequency_Hz) {
+                   double frequency_Hz, int periods) {
   scene.drive->frequency_Hz = frequency_Hz;
   scene.sliding.profile = {{0.0, sliding_m_per_s}};
   scene.run.record.clear();
@@ -52,9 +58,9 @@ scene::Scene trial(scene::Scene scene, const std::vector<double>& ratios, double
   targets.clear();
   // From rest to the strongest drive, and on: the largest change comes first.
   for (std::size_t i = 0; i < std::min(ratios.size(), most_targets); ++i) {
-    targets.push_back({static_cast<double>(i) * step_periods / frequency_Hz, ratios[i]});
+    targets.push_back({static_cast<double>(i) * periods / frequency_Hz, ratios[i]});
   }
-  scene.run.duration_s = static_cast<double>(targets.size()) * step_periods / frequency_Hz;
+  scene.run.duration_s = static_cast<double>(targets.size()) * periods / frequency_Hz;
   constexpr double quick = 1e-6;
   scene.solver.tolerance = std::max(scene.solver.tolerance, quick);
   return scene;
@@ -226,8 +232,9 @@ std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
   study.own = carriers_on_a_side;
   study.carriers.resize(2 * carriers_on_a_side + 1);
   const double own_Hz = stated.drive->frequency_Hz;
+  study.step_periods = step_periods(study.natural_Hz / own_Hz);
   const auto tried_at = [&](const scene::Scene& each, double frequency_Hz) {
-    return trial(each, ratios, sliding_m_per_s, frequency_Hz);
+    return trial(each, ratios, sliding_m_per_s, frequency_Hz, study.step_periods);
   };
   for (const auto& each : scene::interpolations) {
     study.drives.push_back(

@@ -50,6 +50,7 @@ struct NaturalModeStudy {
   bool model_error = false;        ///< of the scene, which the controllers have besides
   std::size_t plants = 0;          ///< with each drive, and at each carrier
   std::size_t targets = 0;         ///< of each loop
+  int step_periods = 0;            ///< that each of them lasts
   std::vector<QuietDrive> drives;  ///< step, then linear
   /// Of these the one with which fewest never settle, then fewest late; then the quickest.
   std::size_t best_drive = 0;
@@ -66,7 +67,6 @@ struct NaturalModeStudy {
 inline constexpr double slow_mode = 0.09;
 
 inline constexpr int prompt_periods = 60;  ///< a millisecond at 60 kHz
-inline constexpr int step_periods = 100;   ///< that a target lasts in the loops that are tried
 
 /// Of a loop off resonance whose plant has a natural mode; else none.
 /// @param stated  as the controller knows it

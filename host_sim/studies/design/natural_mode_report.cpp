@@ -227,7 +227,7 @@ output::Section natural_mode_section(const DesignStudy& study, const NaturalMode
       "of the ratio: half of it, from rest to the target that swings most; the settling band is {:g}. "
       "Settled, late and never are closed loops of {} targets of {} carrier periods each; in the chart "
       "with {}.",
-      study.task.scene.run.settling_band, mode.targets, step_periods,
+      study.task.scene.run.settling_band, mode.targets, mode.step_periods,
       word(mode.drives[mode.best_drive]));
   section.tables = {drives_table(mode)};
   section.charts = {carrier_chart(mode)};

@@ -81,6 +81,17 @@ TEST(NaturalModeTest, RecommendsABiasAgainstASlowMode) {
   EXPECT_FALSE(study_of(beside_a_multiple()).bias);
 }
 
+TEST(NaturalModeTest, GivesAModeSlowerThanAHundredPeriodsTheTimeToComeToRest) {
+  scene::Scene slow = table_1();
+  slow.plant.stiffness_N_per_m = 1.82e5;  // 0.008 of the carrier
+  slow.drive->max_force_amplitude_N = 2200.0;
+  const NaturalModeStudy found = study_of(slow);
+  EXPECT_NEAR(found.step_periods, 1250, 2);
+  const Tally& own = found.carriers[found.own].plants;
+  EXPECT_EQ(own.settled + own.late, found.plants);
+  EXPECT_EQ(study_of(table_1()).step_periods, 100);
+}
+
 TEST(NaturalModeTest, TakesTheToleranceOfTheScene) {
   scene::Scene scene = table_1();
   const double stiffness = scene.plant.stiffness_N_per_m;
