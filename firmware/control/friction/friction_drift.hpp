@@ -30,6 +30,22 @@ class FrictionDrift {
   }
   /// The same for a friction that goes on to change.
   void goes_on(Scalar base) { base_ = base; }
+  /// The same for one whose change m is known. @return  by how much the belief moves
+  Scalar begin_ahead(Scalar base) {
+    base_ = base;
+    ahead_ = change_;
+    return ahead_;
+  }
+
+  /// m
+  Scalar change() const { return change_; }
+  void set_change(Scalar change) { change_ = numeric::clamp_magnitude(change, most()); }
+
+  /// By how much Fc changes in two readings and the periods in which the request moves.
+  /// @param moved  these, over 256; a reading has about 16
+  Scalar change_over(Scalar moved) const {
+    return numeric::twice(change_) + numeric::lifted(numeric::rough_product(change_, moved), 4);
+  }
 
   /// What a reading shows beyond its base.
   Scalar shown(Scalar innovation) const { return innovation - base_; }
@@ -62,11 +78,10 @@ class FrictionDrift {
   /// @param error  d
   /// @return by how much the belief moves
   Scalar follow(Scalar error) {
-    constexpr Scalar most = numeric::from_real<Scalar>(1.0 / 128.0);
     const Scalar change = error + ahead_;
     const bool same_way = (change < Scalar{}) == (change_ < Scalar{});
     const Scalar smaller = numeric::abs(change) < numeric::abs(change_) ? change : change_;
-    ahead_ = same_way ? numeric::clamp_magnitude(smaller, most) : Scalar{};
+    ahead_ = same_way ? numeric::clamp_magnitude(smaller, most()) : Scalar{};
     change_ = change;
     return error + ahead_;
   }
@@ -80,6 +95,8 @@ class FrictionDrift {
   }
 
  private:
+  static constexpr Scalar most() { return numeric::from_real<Scalar>(1.0 / 128.0); }
+
   Scalar base_{};
   Scalar change_{};  ///< m
   Scalar ahead_{};   ///< a

@@ -32,6 +32,11 @@ namespace sonoglide::control {
 /// in which level, map and integral change. A dip whose reading moves Fc by more than half has another
 /// one. A dip in which no reading is complete within dip_periods ends.
 ///
+/// A friction that drifts moves between the dip and the first reading after it as well, which takes that
+/// for an error of Kt and g. Four readings later the drift is known: where it shows, by more than four
+/// times their noise, all is forgotten and learnt again, once, in a dip after which Fc is moved by the
+/// drift up to the first reading. Fc is less certain by what four readings show in any case.
+///
 /// Ratios on base 2. Speeds and requests: base the peak vibration velocity at full drive.
 template <class ScalarT>
 class FrictionTracking {
@@ -67,10 +72,10 @@ class FrictionTracking {
   }
 
   void restart() {
-    estimate_.restart();
+    forget();
     drift_.begin(Scalar{});
-    contact_ = unity();
-    inverse_gain_ = unity();
+    again_ = false;
+    fresh_ = 0;
     taken_at_ = {};
     interrupt();
   }
@@ -145,6 +150,9 @@ class FrictionTracking {
     if (estimate_.contradicted()) {
       all.stiffness = all.gain = Estimate::most_variance();
     }
+    if (fresh_ > 0) {
+      all.force = all.force + Drift::square_of_twice(numeric::twice(shown_));
+    }
     all.force = all.force + drift_.variance() + Drift::square_of_twice(noise_) +
                 Drift::square_of_twice(drift_.base()) + Drift::square_of_twice(mean_.moved());
     return all;
@@ -216,7 +224,7 @@ class FrictionTracking {
         learn();
         return Task::learn;
       case Phase::follow:
-        change_force(drift_.follow(error_));
+        follow();
         return Task::learn;
       case Phase::adapt:
         conclude(now);
@@ -291,7 +299,11 @@ class FrictionTracking {
     reading_.innovation = half_log(mean_.measured(), mapped());
     if (base_ == Base::first) {
       base_ = Base::known;
-      drift_.begin(explained(reading_.innovation));
+      if (again_) {
+        drift_.goes_on(explained(reading_.innovation));
+      } else {
+        drift_.begin(explained(reading_.innovation));
+      }
       wanted_ = wanted_ || drift_.base() != reading_.innovation;
     }
     if (!wanted_) {
@@ -307,15 +319,54 @@ class FrictionTracking {
 
   void judge(Scalar requested) {
     const Scalar shown = drift_.shown(reading_.innovation);
-    if (drift_.moves(shown, noise_)) {
+    if (drift_.moves(shown, noise_) || fresh_ == 1) {
       error_ = Drift::error(shown, noise_, reading_.slope.force);
       phase_ = Phase::follow;
     } else {
       drift_.rest();
+      fresh_ = fresh_ > 0 ? fresh_ - 1 : 0;
       taken_at_ = place_;
       begin(requested);
     }
   }
+
+  void follow() {
+    change_force(drift_.follow(error_));
+    if (fresh_ == 0) {
+      return;
+    }
+    constexpr Scalar most = numeric::from_real<Scalar>(1.0 / 8.0);
+    shown_ = numeric::clamp_magnitude(shown_ + (again_ ? error_ : drift_.change()), most);
+    --fresh_;
+    if (fresh_ == 0) {
+      doubt();
+    }
+  }
+
+  /// A friction that drifts has done so between the dip and the first reading after it, which has taken
+  /// that for an error of the map. The first time all is learnt again, with a drift that is known.
+  void doubt() {
+    const bool sees_drift = numeric::twice(numeric::twice(noise_)) < numeric::abs(shown_);
+    if (again_ || !sees_drift) {
+      again_ = again_ && sees_drift;
+      estimate_.widen(Drift::square_of_twice(shown_));
+    } else {
+      again_ = true;
+      forget();
+      drift_.set_change(numeric::half(numeric::half(shown_)));
+    }
+  }
+
+  /// What readings have told of the constants.
+  void forget() {
+    estimate_.restart();
+    contact_ = unity();
+    inverse_gain_ = unity();
+    base_ = Base::none;
+  }
+
+  /// The first reading after a dip, of a friction whose drift is known.
+  bool led() const { return again_ && base_ == Base::none && !dips_; }
 
   /// Ratio of the map where the drive stands; a dip has that of no drive.
   Scalar mapped() const { return dips_ ? one_half() : mean_.commanded(); }
@@ -332,6 +383,11 @@ class FrictionTracking {
 
   /// A reading that is no jump, because Kt and g may be another by as much, is one of a drift.
   void weigh() {
+    if (led()) {
+      error_ = drift_.change_over(mean_.moved_before());
+      reading_.innovation = reading_.innovation -
+                            numeric::twice(numeric::rough_product(reading_.slope.force, error_));
+    }
     phase_ = estimate_.weigh(reading_, wanted_, tests_map_) ? Phase::learn : Phase::judge;
   }
 
@@ -343,7 +399,16 @@ class FrictionTracking {
     Scalar force = moved.force;
     if (dips_) {
       base_ = Base::none;
-      drift_.begin(Scalar{});
+      fresh_ = 4;
+      shown_ = Scalar{};
+      if (again_) {
+        drift_.goes_on(Scalar{});
+      } else {
+        drift_.begin(Scalar{});
+      }
+    } else if (led()) {
+      base_ = small(moved) ? Base::known : Base::first;
+      force = force + error_ + drift_.begin_ahead(explained(estimate_.residual()));
     } else if (small(moved)) {
       base_ = Base::known;
       drift_.goes_on(explained(estimate_.residual()));
@@ -433,6 +498,9 @@ class FrictionTracking {
   bool wanted_ = false;     ///< the reading is taken in where it shows nothing new, too
   bool tests_map_ = false;  ///< it is the first one at another request, and depends on Kt and g
   bool far_ = false;        ///< the last change of Fc, from where the filter is not linear
+  Scalar shown_{};          ///< of a drift, by the readings since the last dip
+  std::uint8_t fresh_ = 0;  ///< of these readings, those that are still to come
+  bool again_ = false;      ///< all is learnt again, because it drifted while it was learnt
 };
 
 }  // namespace sonoglide::control

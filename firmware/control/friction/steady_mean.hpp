@@ -66,6 +66,7 @@ class SteadyMean {
     if (count_ < periods()) {
       return false;
     }
+    before_ = moving_periods_;
     moving_periods_ = 0;
     return true;
   }
@@ -81,6 +82,8 @@ class SteadyMean {
 
   /// Half of the least by which the request has moved since the last reading, over itself; at most 1/8.
   Scalar moved() const { return numeric::from_code<Scalar>(moving_periods_ << 23); }
+  /// Periods in which it moved before the reading that is complete, over 256.
+  Scalar moved_before() const { return numeric::from_code<Scalar>(before_ << 23); }
 
   /// By more than a part of it.
   static bool differs(Scalar request, Scalar from, Scalar part) {
@@ -94,6 +97,7 @@ class SteadyMean {
   numeric::Accumulator<Scalar> commanded_{};
   std::uint32_t count_ = 0;
   std::int32_t moving_periods_ = 0;  ///< since the last reading
+  std::int32_t before_ = 0;          ///< of the last reading
   bool limited_ = false;
 };
 

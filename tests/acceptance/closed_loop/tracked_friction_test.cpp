@@ -119,6 +119,31 @@ TEST(TrackedFriction, FollowsAFrictionThatDrifts) {
   }
 }
 
+/// The drift is in every reading by which the constants are told apart.
+TEST(TrackedFriction, FollowsAFrictionThatDriftsFromTheStart) {
+  for (const std::string& arithmetic : arithmetics) {
+    for (const double end : {0.15, 0.13, 0.09, 0.07, 0.05}) {
+      for (const double duration_s : {6e-3, 8e-3, 12e-3}) {
+        const nlohmann::json friction =
+            summary_of("target_step",
+                       tracked({"friction.coefficient=",
+                                "friction.coefficient_profile=[[0,0.1],[26e-3," +
+                                    std::to_string(end) + "]]",
+                                "controller.arithmetic=" + arithmetic, "run.record=[]",
+                                "run.duration_s=" + std::to_string(duration_s)}))
+                .at("control")
+                .at("friction");
+        const double truth = 0.1962 * (0.1 + (end - 0.1) * duration_s / 26e-3);
+        const std::string loop = arithmetic + " " + std::to_string(end);
+        EXPECT_TRUE(holds(friction.at("Fc_N"), truth)) << loop << " " << truth << friction;
+        if (8e-3 <= duration_s) {  // before that all may be in the middle of being learnt again
+          EXPECT_LT(friction.at("Fc_N").at("high_95"), truth * 1.06) << loop;
+        }
+      }
+    }
+  }
+}
+
 /// The first reading at a target doubles Kt, at a ratio that has settled already.
 TEST(TrackedFriction, DoesNotSwingByALargeCorrection) {
   const ScratchFolder folder;
