@@ -125,7 +125,8 @@ function(sonoglide_emulated_board name)
   if(BOARD_TIMED_HARDWARE)
     set(timed_main firmware/image/timed_unit.cpp)
     set(timed_images timed)
-    # Of the tests, which a tree of the product alone does not have.
+    # Of the tests, which a tree of the product alone does not have: built by their names alone, because some
+    # need what the tests record.
     set(exception_main tests/boards/exception_unit.cpp)
     set(interrupted_main tests/boards/interrupted_unit.cpp)
     set(replayed_main tests/boards/replayed_run.cpp)
@@ -140,6 +141,12 @@ function(sonoglide_emulated_board name)
       sonoglide_images(_${image} SOURCE ${${image}_main} MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
         CLASS ${BOARD_TIMED_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
         USES sonoglide_emulated_board sonoglide_halt)
+      foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+        get_filename_component(controller "${folder}" NAME)
+        if(NOT image STREQUAL timed)
+          set_target_properties(${controller}_${image} PROPERTIES EXCLUDE_FROM_ALL ON)
+        endif()
+      endforeach()
     endforeach()
   endif()
   sonoglide_plant_images(${BOARD_FOLDER}/${BOARD_MEMORY})

@@ -132,9 +132,9 @@ class FullDiskTest : public testing::TestWithParam<Command> {};
 TEST_P(FullDiskTest, NothingIsPublishedByHalves) {
   const SceneFolder folder;
   const Entries before = folder.entries();
-  // Files of at most one block; the messages go through pipes.
+  // Files without a byte; the messages go through pipes.
   const Outcome outcome =
-      folder.run_program("sh", "-c " + shell_word("(ulimit -f 1; exec '" SONOGLIDE_PROGRAM "' " +
+      folder.run_program("sh", "-c " + shell_word("(ulimit -f 0; exec '" SONOGLIDE_PROGRAM "' " +
                                                   words(GetParam()) + " 2>&1; echo >&2) | cat"));
   EXPECT_NE(outcome.out.find(": File too large"), std::string::npos) << outcome.out;
   expect_nothing_or_all(GetParam(), folder, before);

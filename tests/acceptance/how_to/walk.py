@@ -1,6 +1,6 @@
 """Walks the how-tos: carries out their own snippets, in order, in a copy of the sources.
 
-Usage: walk.py SOURCE FOLDER [--build]
+Usage: walk.py SOURCE FOLDER [--build] [law | solver | command | board]...   All four if none is named.
 
 A block ```diff begins with `+++ FILE`. Its lines that begin with a blank are in this file, in this order and
 once; the lines that begin with + are added below them. A block without the former is added at the end of the
@@ -15,13 +15,12 @@ import shutil
 import subprocess
 import sys
 
-HOW_TOS = [
-    ("firmware/friction/README.md", "How to add a friction law"),
-    ("firmware/plant/README.md", "How to add a solver"),
-    ("host_sim/cli/README.md", "How to add a command"),
-    ("hal/README.md", "How to port the controller to a board"),
-
-]
+HOW_TOS = {
+    "law": ("firmware/friction/README.md", "How to add a friction law"),
+    "solver": ("firmware/plant/README.md", "How to add a solver"),
+    "command": ("host_sim/cli/README.md", "How to add a command"),
+    "board": ("hal/README.md", "How to port the controller to a board"),
+}
 EDITS = ("cp ", "mkdir ", "sed ")
 
 
@@ -89,24 +88,41 @@ def carry_out_edits(tree, text):
     return builds
 
 
-def main():
-    source, tree = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    for old in tree.iterdir() if tree.exists() else []:
-        if old.is_dir() and old.name != "build":
-            shutil.rmtree(old)
-    shutil.copytree(source, tree, dirs_exist_ok=True, ignore=shutil.ignore_patterns("build", ".git", "out"))
+def files_below(folder):
+    for file in folder.rglob("*"):
+        path = file.relative_to(folder)
+        if file.is_file() and path.parts[0] not in (".git", "build", "out") and "__pycache__" not in path.parts:
+            yield path
+
+
+def copy_sources(source, tree):
+    """What an earlier walk has edited gets the time of now: a build that is kept makes it again."""
+    sources = set(files_below(source))
+    for path in set(files_below(tree)) - sources:
+        (tree / path).unlink()
+        if not any((tree / path).parent.iterdir()):
+            (tree / path).parent.rmdir()
+    for path in sources:
+        if not (tree / path).exists() or (tree / path).read_bytes() != (source / path).read_bytes():
+            (tree / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source / path, tree / path)
     # What tools/setup has fetched from npm serves the copy too.
     if (source / "build/npm").exists() and not (tree / "build/npm").exists():
         (tree / "build").mkdir(exist_ok=True)
         (tree / "build/npm").symlink_to(source / "build/npm")
-    environment = dict(os.environ, CCACHE_BASEDIR=str(tree), CCACHE_NOHASHDIR="1")
+
+
+def main():
+    source, tree = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+    chosen = [word for word in sys.argv[3:] if word != "--build"] or list(HOW_TOS)
+    copy_sources(source, tree)
     if shutil.which("ccache"):
-        environment["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
-    for document, title in HOW_TOS:
+        os.environ["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
+    for document, title in (HOW_TOS[word] for word in chosen):
         builds = carry_out_edits(tree, section((tree / document).read_text(), title))
         for block in builds if "--build" in sys.argv else []:
             print(block, flush=True)
-            subprocess.run(["bash", "-e", "-c", block], cwd=tree, env=environment, check=True)
+            subprocess.run(["bash", "-e", "-c", block], cwd=tree, check=True)
 
 
 if __name__ == "__main__":

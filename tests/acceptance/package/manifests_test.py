@@ -133,10 +133,12 @@ class Zephyr(unittest.TestCase):
 
     def test_serves_an_application(self):
         build = fresh("zephyr")
-        run(CMAKE, "-G", "Ninja", "-S", str(pathlib.Path(__file__).parent / "module"), "-B", str(build),
+        configured = run(
+            CMAKE, "-G", "Ninja", "-S", str(pathlib.Path(__file__).parent / "module"), "-B", str(build),
             f"-DCMAKE_TOOLCHAIN_FILE={TOOLCHAIN}", f"-DMODULE={SOURCES}",
             f"-DMODULE_CMAKE={self.module['build']['cmake']}", f"-DSTRANGER={STRANGER}",
             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
+        self.assertNotIn("Warning", configured)
         run(CMAKE, "--build", str(build))
         commands = json.loads((build / "compile_commands.json").read_text())
         self.assertEqual(len(commands), 1)

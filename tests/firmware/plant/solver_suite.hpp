@@ -19,7 +19,9 @@ namespace sonoglide::plant {
 template <class Scalar>
 inline constexpr bool is_single = std::is_same_v<Scalar, float>;
 
-/// smooth: error of motion and friction without reversals; across: with them.
+/// setting: step in radians of the carrier, or tolerance, as the constructor takes it;
+/// coarse_setting: that of the test of the friction bound. smooth: error of motion and friction
+/// without reversals; across: with them.
 template <class Number, std::size_t Order>
 struct TaylorMethod {
   using Scalar = Number;
