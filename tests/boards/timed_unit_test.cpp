@@ -129,7 +129,8 @@ class Terminal {
  private:
   template <class Condition>
   static void wait_for(const Condition& condition) {
-    const auto end = std::chrono::steady_clock::now() + 60s;
+    // A busy machine may keep an emulator waiting for minutes.
+    const auto end = std::chrono::steady_clock::now() + 10min;
     while (!condition()) {
       if (end < std::chrono::steady_clock::now()) {
         throw std::runtime_error("the emulator hangs");
