@@ -21,16 +21,28 @@ class ControlLoop {
 
   /// Serves one carrier period; false when the board shuts down.
   bool serve() {
+    NoTargets none;
+    return serve(none);
+  }
+
+  /// The same with a schedule of targets, which takes the sample once it is answered.
+  template <class Targets>
+  bool serve(Targets& targets) {
     Sample sample{};
     if (!board_.sample(sample)) {
       return false;
     }
     board_.drive(drive_of(
         controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample))));
+    targets.pass(sample);
     return true;
   }
 
  private:
+  struct NoTargets {
+    static constexpr void pass(const Sample& /*sample*/) {}
+  };
+
   ControllerT& controller_;
   BoardT& board_;
 };

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/board.hpp"
+
 namespace sonoglide::app {
 
 /// A target, and the carrier period from which it is in force.
@@ -27,6 +29,9 @@ class TargetSchedule {
     }
     ++period_;
   }
+
+  /// Takes a sample: these targets do not depend on it.
+  static constexpr void pass(const hal::Sample& /*sample*/) {}
 
  private:
   const TargetStep<Scalar> (&steps_)[Count];

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/board.hpp"
+
 namespace sonoglide::app {
 
 /// Time in carrier periods of the start, of a drive whose frequency is a word: each period counts
@@ -59,6 +61,9 @@ class TimedSchedule {
       controller.set_target(targets_.steps[next_++].target);
     }
   }
+
+  /// Takes a sample: these targets do not depend on it.
+  static constexpr void pass(const hal::Sample& /*sample*/) {}
 
  private:
   const TimedTargets<Scalar, Count>& targets_;

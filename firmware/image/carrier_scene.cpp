@@ -7,6 +7,7 @@
 #include "controller_configuration.hpp"
 #include "firmware/app/control_loop.hpp"
 #include "firmware/app/target_schedule.hpp"
+#include "firmware/app/texture.hpp"
 #include "firmware/control/controller.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
 
@@ -49,7 +50,7 @@ hal::Drive last_answer;
 
 void take_carrier() {
   run->targets.advance(run->controller);
-  run->loop.serve();
+  run->loop.serve(run->targets);
 }
 }
 

@@ -4,6 +4,7 @@
 #include "controller_configuration.hpp"
 #include "firmware/app/control_loop.hpp"
 #include "firmware/app/target_schedule.hpp"
+#include "firmware/app/texture.hpp"
 #include "firmware/app/timed_targets.hpp"
 #include "firmware/control/controller.hpp"
 
@@ -28,6 +29,6 @@ int main() {
       : "i"(sizeof controller), "i"(sizeof loop + sizeof targets), "i"(sizeof board));
   do {
     targets.advance(controller);
-  } while (loop.serve());
+  } while (loop.serve(targets));
   return 0;
 }

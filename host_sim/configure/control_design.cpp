@@ -28,13 +28,14 @@ static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, Feedfo
 
 /// @throws ConfigurationError  the sensor does not read a force that is the target
 void require_readable_targets(const scene::Scene& scene, const ControlDesign& design) {
-  for (const scene::TargetStep& step : scene.controller->target_friction_force_N) {
-    if (!(step.value < design.scales.force_N)) {
+  const scene::Controller& controller = *scene.controller;
+  for (const double target : controller.target_values()) {
+    if (controller.holds_force() && !(target < design.scales.force_N)) {
       throw ConfigurationError(
-          "controller.target_friction_force_N",
+          fmt::format("controller.{}", controller.target_key()),
           fmt::format(
               "{:g} N is not below sensor.force_full_scale_N, {:g} N; allowed: at most {} N",
-              step.value, design.scales.force_N, scene::at_most(design.scales.force_N)));
+              target, design.scales.force_N, scene::at_most(design.scales.force_N)));
     }
   }
 }
@@ -112,6 +113,7 @@ ControlDesign design_control(const scene::Scene& scene) {
   design_slew(*scene.drive, design);
   design_relearning(scene, plant, design);
   design_tracking(scene, plant, design);
+  design_texture(scene, design);
   return design;
 }
 

@@ -12,6 +12,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/friction/inverse_design.hpp"
 #include "host_sim/configure/friction/vibration_map.hpp"
+#include "host_sim/configure/texture_design.hpp"
 #include "host_sim/configure/vibration/bias_design.hpp"
 #include "host_sim/configure/vibration/damped_design.hpp"
 #include "host_sim/configure/vibration/notch_design.hpp"
@@ -73,7 +74,8 @@ struct ControlDesign {
   double carrier_Hz = 0.0;            ///< nominal, at the start
   double force_factor_N_per_V = 0.0;  ///< nominal, over which a motional current is a velocity
   bool senses_force = true;
-  bool holds_force = false;  ///< a friction force is the target, not a ratio
+  bool holds_force = false;              ///< a friction force is the target, not a ratio
+  std::optional<TextureDesign> texture;  ///< a target along the sliding distance, in place of steps
   /// In the order of scene::VibrationMode.
   std::variant<FeedforwardDesign, SensorlessDesign, DampedDesign, ResonantDesign> vibration;
   std::optional<BiasDesign> bias;    ///< where the scene has a bias limit

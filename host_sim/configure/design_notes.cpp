@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "firmware/control/interface/names.hpp"
 #include "host_sim/configure/control_design.hpp"
 
 namespace sonoglide::configure {
@@ -222,6 +223,17 @@ void add_reach_note(const ControlDesign& design, std::vector<std::string>& notes
   }
 }
 
+void add_texture_note(const TextureDesign& texture, std::vector<std::string>& notes) {
+  if (texture.overload <= 1.0) {
+    return;
+  }
+  notes.push_back(fmt::format(
+      "At {:.4g} m/s the texture asks for changes of the vibration that are up to {:.3g} times what the "
+      "drive can: there the limit {} cuts them. Sliding below about {:.2g} m/s is followed.",
+      texture.fastest_m_per_s, texture.overload, control::name(texture.limit),
+      texture.fastest_m_per_s / texture.overload));
+}
+
 }  // namespace
 
 std::vector<std::string> design_notes(const ControlDesign& design) {
@@ -241,6 +253,9 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
   }
   add_tracking_note(design, notes);
   add_reach_note(design, notes);
+  if (design.texture) {
+    add_texture_note(*design.texture, notes);
+  }
   return notes;
 }
 

@@ -64,4 +64,12 @@ void design_relearning(const scene::Scene& scene, const NominalPlant& plant, Con
 ///         friction, or another key contradicts it
 void design_tracking(const scene::Scene& scene, const NominalPlant& plant, ControlDesign& design);
 
+// A target along the sliding distance.
+
+/// Nothing where the scene has no texture.
+/// @pre vibration and lead are designed
+/// @throws ConfigurationError  controller.target_texture: a period of few steps, or one whose targets
+///         the arithmetic does not tell apart
+void design_texture(const scene::Scene& scene, ControlDesign& design);
+
 }  // namespace sonoglide::configure

@@ -18,9 +18,8 @@ double first_undriven_friction_N(const scene::Scene& scene) {
 
 std::vector<double> NominalPlant::target_ratios(const scene::Controller& controller) const {
   std::vector<double> ratios;
-  for (const scene::TargetStep& step : controller.targets()) {
-    ratios.push_back(controller.holds_force() ? std::min(1.0, step.value / friction_N)
-                                              : step.value);
+  for (const double target : controller.target_values()) {
+    ratios.push_back(controller.holds_force() ? std::min(1.0, target / friction_N) : target);
   }
   return ratios;
 }

@@ -156,8 +156,7 @@ void require_reach(const scene::Scene& scene, const loop::ScheduledTarget& step,
   constexpr std::uint64_t most_steps = 0xffffffff;
   if (step.place > most_steps) {
     throw configure::ConfigurationError(
-        scene.controller->holds_force() ? "controller.target_friction_force_N"
-                                        : "controller.target_friction_ratio",
+        fmt::format("controller.{}", scene.controller->target_key()),
         fmt::format("a step at {:g} s is out of an image's reach; allowed: at most {} s",
                     step.time_s, scene::at_most(static_cast<double>(most_steps) * step_period_s)));
   }
@@ -186,9 +185,48 @@ struct TargetText {
   const char* drive;  ///< of which the carrier period is
 };
 
+/// Of a resonant loop; `where` among the numbers above the word of the start is.
+std::string frequency_step(const configure::ResonantDesign* resonance, const char* where) {
+  return resonance == nullptr
+             ? ""
+             : fmt::format(
+                   "\n/// The frequency of a command is this step times the word of the start, which is "
+                   "the {} "
+                   "number\n/// above, and the command's steps together.\n"
+                   "inline constexpr double frequency_step_Hz = {:a};\n",
+                   where, resonance->step_Hz);
+}
+
+template <class Scalar>
+TargetText texture_text(const configure::ControlDesign& design) {
+  const configure::TextureDesign& texture = *design.texture;
+  const configure::ResonantDesign* const resonance = design.resonance();
+  std::string points;
+  for (const double value : texture.values) {
+    points += fmt::format("    {},  // {}{}\n",
+                          Initialiser<Scalar>::of(configure::target_of<Scalar>(design, value)),
+                          value, design.holds_force ? " N" : "");
+  }
+  const std::string steps =
+      resonance == nullptr
+          ? fmt::format("EqualSteps> target_steps = {{\n    {{{}}}", texture.weight)
+          : fmt::format("WordedSteps> target_steps = {{\n    {{{}, {}}}", texture.weight,
+                        resonance->start_word);
+  return {"firmware/app/texture.hpp",
+          fmt::format("inline constexpr Scalar texture_points[] = {{\n{}}};\n"
+                      "inline constexpr TextureTargets<Scalar, {},\n    {{{}, {}U, {}U}},\n"
+                      "    texture_points, {}}};\n{}",
+                      points, steps, texture.period, texture.inverse, texture.lead,
+                      texture.values.size(), frequency_step(resonance, "second")),
+          resonance == nullptr ? "" : " at the start"};
+}
+
 /// In a resonant loop with the word of the start and the step of the frequency.
 template <class Scalar>
 TargetText target_text(const scene::Scene& scene, const configure::ControlDesign& design) {
+  if (design.texture) {
+    return texture_text<Scalar>(design);
+  }
   const configure::ResonantDesign* const resonance = design.resonance();
   const std::string steps = target_steps<Scalar>(scene, design);
   if (resonance == nullptr) {
@@ -196,12 +234,10 @@ TargetText target_text(const scene::Scene& scene, const configure::ControlDesign
             fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps),
             ""};
   }
-  std::string lines = fmt::format(
-      "inline constexpr TimedTargets<Scalar, {}> target_steps = {{{}, {{\n{}}}}};\n\n"
-      "/// The frequency of a command is this step times the word of the start, which is the first "
-      "number\n/// above, and the command's steps together.\n"
-      "inline constexpr double frequency_step_Hz = {:a};\n",
-      scene.controller->targets().size(), resonance->start_word, steps, resonance->step_Hz);
+  std::string lines =
+      fmt::format("inline constexpr TimedTargets<Scalar, {}> target_steps = {{{}, {{\n{}}}}};\n{}",
+                  scene.controller->targets().size(), resonance->start_word, steps,
+                  frequency_step(resonance, "first"));
   return {"firmware/app/timed_targets.hpp", std::move(lines), " at the start"};
 }
 

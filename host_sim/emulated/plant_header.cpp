@@ -293,6 +293,9 @@ std::string plant_header(const configure::Experiment& experiment, scene::Arithme
       !scene.sensor.vibration, "controller.vibration",
       "the plant of an image shows no vibration, and its drive has one frequency; allowed: a scene "
       "without this key");
+  require(!scene.controller->texture, "controller.target_texture",
+          "the plant of an image runs with target steps; allowed: target_friction_ratio or "
+          "target_friction_force_N");
   require(scene.controller->every_periods == 1, "controller.every_periods",
           "the plant of an image waits for a step in each carrier period; allowed: 1");
   require_ideal(scene.sensor);

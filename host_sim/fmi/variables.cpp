@@ -128,14 +128,15 @@ void add_answer(List& list, scene::Arithmetic arithmetic) {
 
 Variable target(const scene::Scene& scene) {
   const bool of_force = scene.controller->holds_force();
-  Variable variable{of_force ? "target_friction_force_N" : "target_friction_ratio",
-                    Role::input,
-                    of_force ? "N" : "1",
-                    fmt::format("Target from the next sample on, in (0, {}]; 0: the steps of the "
-                                "scene, as long as no other target was given",
-                                scene.highest_target()),
-                    0.0,
-                    &Inputs::target};
+  Variable variable{
+      of_force ? "target_friction_force_N" : "target_friction_ratio",
+      Role::input,
+      of_force ? "N" : "1",
+      fmt::format("Target from the next sample on, in (0, {}]; 0: the {} of the "
+                  "scene, as long as no other target was given",
+                  scene.highest_target(), scene.controller->texture ? "texture" : "steps"),
+      0.0,
+      &Inputs::target};
   variable.highest = scene.highest_target();
   return variable;
 }

@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "firmware/app/control_loop.hpp"
+#include "firmware/app/texture.hpp"
 #include "firmware/control/controller.hpp"
 #include "hal/host/simulated_board.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
@@ -20,6 +22,57 @@ namespace sonoglide::loop {
 namespace compose {
 
 using configure::ControlDesign;
+
+/// Whether a vibration leads the frequency of its drive.
+template <class Vibration, class = void>
+inline constexpr bool leads_frequency = false;
+template <class Vibration>
+inline constexpr bool leads_frequency<
+    Vibration, std::void_t<decltype(std::declval<const Vibration&>().next_frequency())>> = true;
+
+/// How long the steps of a controller are.
+template <class Vibration>
+auto steps_of(const ControlDesign& design) {
+  if constexpr (leads_frequency<Vibration>) {
+    return app::WordedSteps{design.texture->weight, design.resonance()->start_word};
+  } else {
+    return app::EqualSteps{design.texture->weight};
+  }
+}
+
+/// A texture with the targets that it points to.
+template <class Scalar, class Vibration>
+class OwnTexture {
+  using Targets = app::TextureTargets<Scalar, decltype(steps_of<Vibration>(ControlDesign{}))>;
+  using Schedule = decltype(app::schedule_of(std::declval<const Targets&>()));
+
+ public:
+  explicit OwnTexture(const ControlDesign& design)
+      : points_(points(design)),
+        targets_{steps_of<Vibration>(design),
+                 {design.texture->period, design.texture->inverse, design.texture->lead},
+                 points_.data(),
+                 static_cast<std::uint16_t>(points_.size())},
+        schedule_(targets_) {}
+  OwnTexture(const OwnTexture&) = delete;
+  OwnTexture& operator=(const OwnTexture&) = delete;
+
+  Schedule& schedule() { return schedule_; }
+  const Schedule& schedule() const { return schedule_; }
+
+ private:
+  static std::vector<Scalar> points(const ControlDesign& design) {
+    std::vector<Scalar> points;
+    for (const double value : design.texture->values) {
+      points.push_back(configure::target_of<Scalar>(design, value));
+    }
+    return points;
+  }
+
+  std::vector<Scalar> points_;
+  Targets targets_;
+  Schedule schedule_;
+};
 
 template <class Parts>
 class InProcess : public ControlPort {
@@ -35,10 +88,14 @@ class InProcess : public ControlPort {
         parameters_(configure::controller_parameters<Parts>(design)),
         controller_(parameters_),
         loop_(controller_, board_) {
+    if (design.texture) {
+      texture_.emplace(design);
+    }
     controller_.start();
   }
 
   void set_target(double target) override {
+    texture_.reset();
     controller_.set_target(configure::target_of<Scalar>(design_, target));
   }
 
@@ -55,21 +112,45 @@ class InProcess : public ControlPort {
     return std::nullopt;
   }
 
-  void save(SnapshotWriter& state) const override { state.put(controller_); }
+  void save(SnapshotWriter& state) const override {
+    state.put(controller_);
+    state.put(texture_.has_value());
+    if (texture_) {
+      state.put(texture_->schedule().state());
+    }
+  }
   void restore(SnapshotReader& state) override {
     state.get(controller_);
     controller_.settle_at(parameters_);
+    restore_texture(state);
   }
 
  protected:
   Drive answer(const Sample& sample) {
     const numeric::LedgerScope scope(ledger_);
     board_.post(sample);
-    loop_.serve();
+    if (texture_) {
+      texture_->schedule().advance(controller_);
+      loop_.serve(texture_->schedule());
+    } else {
+      loop_.serve();
+    }
     return board_.latest_drive();
   }
 
  private:
+  void restore_texture(SnapshotReader& state) {
+    bool follows = false;
+    state.get(follows);
+    texture_.reset();
+    if (follows) {
+      texture_.emplace(design_);
+      auto place = texture_->schedule().state();
+      state.get(place);
+      texture_->schedule().set_state(place);
+    }
+  }
+
   using Board = hal::host::SimulatedBoard<Sample, Drive>;
 
   ControlDesign design_;
@@ -77,6 +158,8 @@ class InProcess : public ControlPort {
   Controller controller_;
   Board board_;
   app::ControlLoop<Controller, Board> loop_;
+  std::optional<OwnTexture<Scalar, typename Parts::Vibration>>
+      texture_;  ///< none once another target is set
   numeric::SignalLedger ledger_;
 };
 

@@ -40,6 +40,8 @@ std::vector<ScheduledTarget> target_schedule(const scene::Scene& scene, const Ca
 ControlRun::ControlRun(const scene::Scene& scene, const CarrierGrid& grid, ControlPort& port,
                        ControlRecord& record)
     : schedule_(target_schedule(scene, grid)),
+      texture_(scene.controller->texture),
+      follows_texture_(texture_.has_value()),
       port_(port),
       record_(record),
       observes_vibration_(scene.sensor.vibration),
@@ -63,8 +65,10 @@ double ControlRun::frequency_Hz() const {
 void ControlRun::label(Period& period) const {
   const Command& command = actuator_.in_force();
   const bool of_force = record_.design.holds_force;
-  period.target = command.target;
-  period.target_ratio = of_force ? command.target / nominal_friction_N_ : command.target;
+  period.target = follows_texture_
+                      ? texture_->at(0.5 * (period.begin_distance_m + period.end_distance_m))
+                      : command.target;
+  period.target_ratio = of_force ? period.target / nominal_friction_N_ : period.target;
   period.state = command.state;
   period.limit = command.limit;
   period.settling = command.settling;
@@ -112,6 +116,7 @@ void ControlRun::take(const Drive& drive, double time_s) {
 
 void ControlRun::aim_at(double target) {
   next_step_ = schedule_.size();
+  follows_texture_ = false;
   target_ = target;
   port_.set_target(target_);
 }
@@ -125,6 +130,7 @@ void ControlRun::save(SnapshotWriter& state) const {
   state.put(nominal_friction_N_);
   state.put(elapsed_);
   state.put(target_);
+  state.put(follows_texture_);
   state.put(fault_);
   state.put(record_.commands);
   state.put(record_.saturated_commands);
@@ -142,6 +148,7 @@ void ControlRun::restore(SnapshotReader& state) {
   state.get(nominal_friction_N_);
   state.get(elapsed_);
   state.get(target_);
+  state.get(follows_texture_);
   state.get(fault_);
   state.get(record_.commands);
   state.get(record_.saturated_commands);

@@ -83,6 +83,8 @@ class ControlRun {
   void account_for(const Drive& drive, double time_s);
 
   std::vector<ScheduledTarget> schedule_;
+  std::optional<scene::Texture> texture_;
+  bool follows_texture_;  ///< until another target is set
   ControlPort& port_;
   ControlRecord& record_;
   bool observes_vibration_;

@@ -53,11 +53,11 @@ PlantPeriod Engine::begun(double amplitude_N) const {
 PlantPeriod Engine::move(double amplitude_N, double bias_N) {
   PlantPeriod period = begun(amplitude_N);
   period.begin_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
-  period.begin_load_displacement_m = plant_->load_displacement_m();
   const bool biased = control_ && control_->answers_with_bias();
   const double begin_m = biased ? plant_->state().displacement_m : 0.0;
   const EnergyBalance energy = plant_->advance(amplitude_N, bias_N);
   period.end_velocity_m_per_s = plant_->sliding_velocity_m_per_s();
+  pass_distance(period);
   period.mean_friction_force_N = energy.friction_impulse_N_s / energy.duration_s;
   // A mean over part of a carrier period is no friction ratio; a run without a drive has parts alone.
   const double undriven_N_s = friction_N_ * energy.undriven_s;
@@ -81,6 +81,9 @@ PlantPeriod Engine::move(double amplitude_N, double bias_N) {
 }
 
 void Engine::conclude(PlantPeriod& period) {
+  if (!plant_) {
+    pass_distance(period);
+  }
   if (control_ && !watch_.periods.empty()) {
     control_->label(period);
   }
@@ -94,6 +97,17 @@ void Engine::conclude(PlantPeriod& period) {
         period.end_velocity_m_per_s, period.vibration_m_per_s, period.mean_velocity_m_per_s);
   }
   clock_.next();
+}
+
+/// A prescribed velocity changes linearly, but for where two of its pieces meet.
+void Engine::pass_distance(PlantPeriod& period) {
+  period.begin_distance_m = distance_m_;
+  distance_m_ =
+      scene_.load && plant_
+          ? plant_->load_displacement_m()
+          : distance_m_ + 0.5 * (period.begin_velocity_m_per_s + period.end_velocity_m_per_s) *
+                              (period.end_s - period.begin_s);
+  period.end_distance_m = distance_m_;
 }
 
 double Engine::natural_Hz(double time_s) const {
@@ -114,6 +128,7 @@ void Engine::finish() {
 
 void Engine::save(SnapshotWriter& state) const {
   state.put(clock_);
+  state.put(distance_m_);
   if (plant_) {
     plant_->save(state);
   }
@@ -124,6 +139,7 @@ void Engine::save(SnapshotWriter& state) const {
 
 void Engine::restore(SnapshotReader& state) {
   state.get(clock_);
+  state.get(distance_m_);
   if (plant_) {
     plant_->restore(state);
   }

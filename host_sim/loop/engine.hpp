@@ -67,6 +67,7 @@ class Engine {
   void restore(SnapshotReader& state);
 
  private:
+  void pass_distance(PlantPeriod& period);
   double natural_Hz(double time_s) const;
 
   const scene::Scene& scene_;
@@ -75,6 +76,7 @@ class Engine {
   std::optional<PlantRun> plant_;
   std::optional<ControlRun> control_;
   double friction_N_;
+  double distance_m_ = 0.0;     ///< that the sliding has gone
   double constant_natural_Hz_;  ///< of a spring that does not change
 };
 

@@ -22,7 +22,8 @@ struct Period {
   double friction_force_N = undefined;  ///< its mean along the sliding; NaN where ρ is
   double begin_velocity_m_per_s = 0.0;  ///< sliding
   double end_velocity_m_per_s = 0.0;
-  double begin_load_displacement_m = 0.0;  ///< 0 without a load
+  double begin_distance_m = 0.0;  ///< that the sliding has gone, backwards negative
+  double end_distance_m = 0.0;
   double drive_amplitude_N = 0.0;  ///< in force during it, at its end where it passes linearly
   double frequency_Hz = 0.0;       ///< likewise, of the carrier; 0 without a drive
   double bias_N = 0.0;             ///< likewise: the force that is constant over it

@@ -28,9 +28,10 @@ namespace {
 const configure::Experiment& usable(const configure::Experiment& experiment) {
   loop::require_usable(experiment.plant, loop::Kind::loop);
   loop::require_constant_carrier(experiment.plant);
-  if (experiment.plant.controller && experiment.plant.controller->holds_force()) {
+  const std::optional<scene::Controller>& controller = experiment.plant.controller;
+  if (controller && (controller->holds_force() || controller->texture)) {
     throw configure::ConfigurationError(
-        "controller.target_friction_force_N",
+        fmt::format("controller.{}", controller->target_key()),
         "a Loop wants friction ratios and rewards them; allowed: target_friction_ratio");
   }
   return experiment;

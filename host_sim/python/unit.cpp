@@ -37,12 +37,15 @@ configure::Experiment with_controller(configure::Experiment experiment) {
 /// The shipped controller alone: codes in, codes out.
 class ControllerUnit {
  public:
-  /// Begins with the first target of the scene.
+  /// Begins with the first target of the scene, or with its texture, which it follows until a target is
+  /// set.
   /// @throws configure::ConfigurationError  the scene has no controller, or one that answers with a bias
   explicit ControllerUnit(configure::Experiment experiment)
       : experiment_(with_controller(std::move(experiment))),
         port_(loop::make_control_port(scene(), *experiment_.design)) {
-    set_target(scene().controller->targets().front().value);
+    if (!scene().controller->texture) {
+      set_target(scene().controller->targets().front().value);
+    }
   }
 
   /// One control step: the answer to the sample of a carrier period. Of a unit that observes no

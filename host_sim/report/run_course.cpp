@@ -75,12 +75,14 @@ output::Section course_section(const scene::Scene& scene, const Course::Curve& c
     const double half_width = scene.run.settling_band * unit_of_target.size;
     output::Curve target = series("target", Course::target);
     target.pen = target_pen;
-    output::Curve band = target;
-    band.label = fmt::format("target \u00b1 {:.3g}{}, in which it is settled", half_width,
-                             unit_of_target.is_force() ? " N" : "");
-    band.line = Line::band;
-    band.half_width.assign(time.size(), half_width);
-    held.push_back(std::move(band));
+    if (!scene.controller->texture) {
+      output::Curve band = target;
+      band.label = fmt::format("target \u00b1 {:.3g}{}, in which it is settled", half_width,
+                               unit_of_target.is_force() ? " N" : "");
+      band.line = Line::band;
+      band.half_width.assign(time.size(), half_width);
+      held.push_back(std::move(band));
+    }
     held.push_back(std::move(target));
   }
   if (unit_of_target.is_force()) {

@@ -102,7 +102,7 @@ output::Section close_up_section(const scene::Scene& scene, const loop::Recordin
   const auto friction = [](const loop::PlantState& state) { return state.friction_force_N; };
 
   output::Section section{"Start", "The first carrier periods.", {}};
-  if (scene.controller) {
+  if (scene.controller && !scene.controller->texture) {
     const scene::TargetStep& step = scene.controller->targets()[index];
     section.title = fmt::format("Step to {:.3g}{} at {:.6g} ms", step.value,
                                 scene.controller->holds_force() ? " N" : "", step.time_s * 1e3);

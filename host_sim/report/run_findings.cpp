@@ -21,7 +21,7 @@ constexpr std::uint64_t ending_periods = 256;
 void Course::take(const loop::Period& period) {
   curve_.add(period.begin_s, {period.friction_ratio, period.friction_force_N, period.target,
                               period.drive_amplitude_N, period.begin_velocity_m_per_s,
-                              period.bias_N, period.begin_load_displacement_m});
+                              period.bias_N, period.begin_distance_m});
   largest_bias_N_ = std::max(largest_bias_N_, std::abs(period.bias_N));
   ++periods_in_[static_cast<std::size_t>(period.limit)];
   if (period.open_fraction > 0.0) {
@@ -65,6 +65,9 @@ RunFindings::RunFindings(const configure::Experiment& experiment)
   if (const auto& design = experiment.design) {
     step_meter_.emplace(scene_, *design);
     tracking_meter_.emplace(scene_, design->speed_floor_m_per_s());
+    if (design->texture) {
+      texture_meter_.emplace(scene_);
+    }
   }
   if (scene_.demodulates()) {
     vibration_.emplace(scene_.transducer);
@@ -80,6 +83,9 @@ void RunFindings::join(loop::Watch& watch) {
   if (step_meter_) {
     watch.periods.push_back(&*step_meter_);
     watch.periods.push_back(&*tracking_meter_);
+    if (texture_meter_) {
+      watch.periods.push_back(&*texture_meter_);
+    }
   }
   const std::vector<double> steps_s = target_steps_s();
   for (std::size_t i = 0; i < close_ups_.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/report/extremes_curve.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/report/texture_metrics.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::report {
@@ -118,6 +119,8 @@ class RunFindings {
   report::PauseMetrics pauses() const;
   std::optional<double> largest_tracking_error() const;
   const Course& course() const { return course_; }
+  /// Null without a texture.
+  const TextureMeter* texture() const { return texture_meter_ ? &*texture_meter_ : nullptr; }
   /// Null without a transducer.
   const VibrationCourse* vibration() const { return vibration_ ? &*vibration_ : nullptr; }
   /// A few carrier periods at each of the first target steps; in open loop at the beginning.
@@ -134,6 +137,7 @@ class RunFindings {
   loop::CarrierGrid grid_;
   std::optional<report::StepMeter> step_meter_;
   std::optional<report::TrackingMeter> tracking_meter_;
+  std::optional<TextureMeter> texture_meter_;
   Course course_;
   std::optional<VibrationCourse> vibration_;
   std::vector<loop::Recording> close_ups_;

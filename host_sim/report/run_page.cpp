@@ -50,14 +50,19 @@ output::Page run_page(const configure::Experiment& experiment, const loop::RunRe
   if (page.scene.contains(nlohmann::ordered_json::json_pointer("/sensor/seed"))) {
     page.seed = scene.sensor.seed;
   }
-  if (scene.controller) {
+  if (const TextureMeter* texture = findings.texture()) {
+    page.tables.push_back(texture_table(scene, *texture));
+  } else if (scene.controller) {
     page.tables.push_back(step_table(scene, findings));
   }
   if (result.control && result.control->friction) {
     page.tables.push_back(learnt_friction_table(*result.control->friction));
   }
-  if (scene.sensor.vibration) {
+  if (scene.sensor.vibration && findings.texture() == nullptr) {
     page.tables.push_back(vibration_table(findings));
+  }
+  if (const TextureMeter* texture = findings.texture()) {
+    page.sections.push_back(texture_section(scene, *texture));
   }
   // One carrier period is no course: its ratio stands in the figures, its motion in the sections below.
   if (const Course::Curve& course = findings.course().curve(); course.x().size() > 1) {

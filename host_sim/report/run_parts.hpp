@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "host_sim/loop/run.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/report/run_findings.hpp"
@@ -18,6 +20,17 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
 /// What is good to know of the loop: nothing is wrong.
 std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunResult& result,
                                      const RunFindings& findings);
+
+// Of a texture, in place of steps.
+
+/// An entry for each harmonic.
+nlohmann::ordered_json texture_json(const TextureMeter& meter, const TargetUnit& unit);
+std::string texture_lines(const scene::Scene& scene, const TextureMeter& meter);
+output::Table texture_table(const scene::Scene& scene, const TextureMeter& meter);
+/// What is held, over the sliding distance.
+output::Section texture_section(const scene::Scene& scene, const TextureMeter& meter);
+/// Where the mean or the first harmonic is off.
+std::vector<std::string> texture_warnings(const scene::Scene& scene, const TextureMeter& meter);
 
 output::Table step_table(const scene::Scene& scene, const RunFindings& findings);
 /// What a controller has learnt of its contact while driving.

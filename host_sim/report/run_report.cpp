@@ -11,6 +11,7 @@
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/program.hpp"
 #include "host_sim/report/run_notes.hpp"
+#include "host_sim/report/run_parts.hpp"
 #include "host_sim/report/self_excitation.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"
@@ -198,6 +199,10 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals},
       {"notes", notes(scene, result)}};
+  if (const TextureMeter* texture = findings.texture()) {
+    json["texture_periods"] = texture->passes();
+    json["texture"] = texture_json(*texture, target);
+  }
   if (scene.sensor.vibration) {
     json["vibration_full_scale_m_per_s"] = design.scales.velocity_m_per_s;
   }
@@ -362,6 +367,22 @@ std::string friction_line(const loop::FrictionBelief& belief, std::uint64_t dips
       dips == 1 ? "time" : "times");
 }
 
+/// What a loop has learnt while driving, and its faults.
+std::string learning_lines(const loop::RunResult& result, const RunFindings& findings) {
+  std::string text;
+  if (result.control->design.relearns) {
+    text += pause_line(findings.pauses());
+  }
+  if (result.control->friction) {
+    text += friction_line(*result.control->friction, findings.pauses().pauses);
+  }
+  for (const loop::FaultEvent& event : result.control->faults) {
+    text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",
+                        event.time_s * 1e3, fault_name(event.fault));
+  }
+  return text;
+}
+
 std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
                        const RunFindings& findings) {
   const AmplitudeUnit unit = amplitude_unit(scene);
@@ -372,6 +393,9 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
         "friction force learnt with the drive off until {:.3f} ms: the first settling time counts "
         "from there\n",
         calibration_s * 1e3);
+  }
+  if (const TextureMeter* texture = findings.texture()) {
+    return text + texture_lines(scene, *texture) + learning_lines(result, findings);
   }
   const TargetUnit target = target_unit(scene);
   const int target_width = target.is_force() ? 10 : 7;
@@ -387,17 +411,7 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
         error_figure(target, step.steady_error), width_figure(target, step.ripple), ripple_width,
         figure("{:.1f}", step.drive_amplitude_N * unit.per_N), unit.name, limit_text(step));
   }
-  if (result.control->design.relearns) {
-    text += pause_line(findings.pauses());
-  }
-  if (result.control->friction) {
-    text += friction_line(*result.control->friction, findings.pauses().pauses);
-  }
-  for (const loop::FaultEvent& event : result.control->faults) {
-    text += fmt::format("FAULT at {:.3f} ms: {}; the drive is off from there on\n",
-                        event.time_s * 1e3, fault_name(event.fault));
-  }
-  return text;
+  return text + learning_lines(result, findings);
 }
 
 std::string electrical_line(const loop::RunResult& result) {

@@ -99,6 +99,11 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
     return all;
   }
   append_unsettled(scene, findings, all);
+  if (const TextureMeter* texture = findings.texture()) {
+    for (std::string& warning : texture_warnings(scene, *texture)) {
+      all.push_back(std::move(warning));
+    }
+  }
   for (const loop::FaultEvent& event : result.control->faults) {
     all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
                               event.time_s * 1e3, fault_name(event.fault)));

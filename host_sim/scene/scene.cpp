@@ -70,6 +70,29 @@ double Scene::max_drive_force_N() const {
          (transducer ? transducer->force_N(drive->max_voltage_amplitude_V) : 0.0);
 }
 
+double Texture::at(double distance_m) const {
+  const double periods = distance_m / period_m;
+  const double place = (periods - std::floor(periods)) * static_cast<double>(values.size());
+  const auto before = std::min(static_cast<std::size_t>(place), values.size() - 1);
+  const double part = place - static_cast<double>(before);
+  return values[before] + part * (values[(before + 1) % values.size()] - values[before]);
+}
+
+std::vector<double> Controller::target_values() const {
+  std::vector<double> values = texture ? texture->values : std::vector<double>();
+  for (const TargetStep& step : targets()) {
+    values.push_back(step.value);
+  }
+  return values;
+}
+
+const char* Controller::target_key() const {
+  if (texture) {
+    return "target_texture";
+  }
+  return holds_force() ? "target_friction_force_N" : "target_friction_ratio";
+}
+
 double Scene::highest_target() const {
   return controller->holds_force() ? sensor.force_full_scale_N : 1.0;
 }

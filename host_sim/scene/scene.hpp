@@ -203,6 +203,16 @@ struct TargetStep {
   double value = 0.0;  ///< friction ratio, or force [N]
 };
 
+/// A target that repeats itself along the sliding distance: `values` at equal distances over one period,
+/// linear between them and from the last to the first.
+struct Texture {
+  double period_m = 0.0;
+  std::vector<double> values;  ///< friction ratios, or forces [N]
+  bool of_force = false;
+
+  double at(double distance_m) const;
+};
+
 /// How a controller holds the vibration that it observes. resonant: at the plant's resonance, which
 /// the frequency of the drive follows. damped: at a fixed frequency, the natural mode damped.
 enum class VibrationControl { resonant, damped };
@@ -221,9 +231,10 @@ struct Controller {
   int every_periods = 1;                             ///< carrier periods in a step
   std::optional<VibrationControl> vibration;         ///< absent: fed forward, without observing it
   std::optional<FrequencyRange> frequency_range_Hz;  ///< resonant; absent: the default
-  // One of the two:
+  // One of the three:
   std::vector<TargetStep> target_friction_ratio;
   std::vector<TargetStep> target_friction_force_N;
+  std::optional<Texture> texture;
   std::optional<FrictionSource> friction;  ///< absent: as calibration_s says
   std::optional<double> calibration_s;     ///< absent: what suits the design, or 0
   /// Absent: of a drive whose amplitude passes linearly, what suits the design.
@@ -235,10 +246,17 @@ struct Controller {
   double mismatch_warning = 1.25;  ///< believed over true friction, or its inverse, that is named
 
   /// A friction force is the target, not a ratio.
-  bool holds_force() const { return !target_friction_force_N.empty(); }
+  bool holds_force() const {
+    return texture ? texture->of_force : !target_friction_force_N.empty();
+  }
+  /// Steps of the target in time; none of a texture.
   const std::vector<TargetStep>& targets() const {
     return holds_force() ? target_friction_force_N : target_friction_ratio;
   }
+  /// All values that the target has, or goes through from one to the next.
+  std::vector<double> target_values() const;
+  /// The key that has the target.
+  const char* target_key() const;
 };
 
 /// What the vibration is seen by: a pick-up of its velocity, or the transducer's current less that

@@ -61,6 +61,12 @@ class Echo {
     const auto& ends = range(scene_);
     return ends ? ordered_json::array({ends->lowest_Hz, ends->highest_Hz}) : nullptr;
   }
+  ordered_json operator()(Of<std::optional<scene::Texture>> member) const {
+    const std::optional<scene::Texture>& texture = member(scene_);
+    return texture ? ordered_json{{"period_m", texture->period_m},
+                                  {texture->of_force ? "force_N" : "ratio", texture->values}}
+                   : nullptr;
+  }
   ordered_json operator()(Of<scene::TimedProfile> profile) const { return rows(profile(scene_)); }
   ordered_json operator()(InPlaceOf level) const { return rows(level.profile(scene_)); }
   ordered_json operator()(Of<std::vector<scene::SpeedPoint>> points) const {
@@ -128,8 +134,10 @@ std::vector<const Key*> in_echo_order(const KeyTable& table) {
 ordered_json echo(scene::Scene& scene, const KeyTable& table) {
   ordered_json values = ordered_json::object();
   for (const Key* key : in_echo_order(table)) {
-    const bool replaced =
-        !key->replaced_by.empty() && !echo(scene, key_of(table, key->replaced_by)).is_null();
+    const std::vector<std::string_view> others = key->others();
+    const bool replaced = std::any_of(others.begin(), others.end(), [&](std::string_view other) {
+      return !echo(scene, key_of(table, other)).is_null();
+    });
     ordered_json value = replaced ? nullptr : echo(scene, *key);
     if (!value.is_null()) {
       values[std::string(key->name)] = std::move(value);

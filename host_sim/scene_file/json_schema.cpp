@@ -4,6 +4,7 @@
 
 #include "host_sim/scene_file/key_reference.hpp"
 #include "host_sim/scene_file/keys.hpp"
+#include "host_sim/scene_file/table_cursor.hpp"
 
 namespace sonoglide::scene_file {
 namespace {
@@ -44,6 +45,23 @@ struct ValueSchema {
             {"minItems", 2},
             {"maxItems", 2},
             {"items", number_schema(interval.range)}};
+  }
+  ordered_json operator()(const TextureTable& texture) const {
+    const auto points = [](const Range& range) {
+      return ordered_json{{"type", "array"},
+                          {"minItems", TableCursor::fewest_points},
+                          {"maxItems", TableCursor::most_points},
+                          {"items", number_schema(range)}};
+    };
+    return {{"type", "object"},
+            {"additionalProperties", false},
+            {"required", ordered_json::array({"period_m"})},
+            {"oneOf", ordered_json::array({{{"required", ordered_json::array({"ratio"})}},
+                                           {{"required", ordered_json::array({"force_N"})}}})},
+            {"properties",
+             {{"period_m", number_schema(texture.period)},
+              {"ratio", points(texture.ratio)},
+              {"force_N", points(texture.force)}}}};
   }
   ordered_json operator()(const Truth& /*truth*/) const {
     return {{"type", "boolean"}, {"default", true}};

@@ -2,6 +2,7 @@
 /// keeps it, what holds without it, what it means, and which scenes use it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -88,6 +89,13 @@ struct Interval {
 /// true or false; true where absent.
 struct Truth {};
 
+/// `{ period_m = length, ratio = [value, …] }`, or `force_N` in place of `ratio`.
+struct TextureTable {
+  Range period;
+  Range ratio;
+  Range force;
+};
+
 /// How far the true value of another key may be from the scene's: a relative half width,
 /// `{ normal = deviation }`, relative too, or `{ range = [lowest, highest] }`; of integers the range
 /// alone.
@@ -96,7 +104,8 @@ struct Spread {
   bool whole = false;  ///< that one holds integers
 };
 
-using Allowed = std::variant<Number, Integer, Word, WordList, Profile, Interval, Truth, Spread>;
+using Allowed =
+    std::variant<Number, Integer, Word, WordList, Profile, Interval, Truth, TextureTable, Spread>;
 
 /// Of a relative half width or standard deviation.
 inline constexpr Range spread_range{0.0, 100.0, "", true};
@@ -104,10 +113,10 @@ inline constexpr Range spread_range{0.0, 100.0, "", true};
 /// The key must be there wherever it is used.
 struct Required {};
 
-/// Of all keys of a table that stand in for another, exactly one must be there; which pair, depends
-/// on the rest of the scene.
+/// Of all keys of a table that stand in for another, exactly one must be there; which ones they are,
+/// depends on the rest of the scene.
 struct Instead {
-  std::string_view other;
+  std::string_view others;  ///< in words
 };
 
 /// What holds without the key, in words.
@@ -155,7 +164,8 @@ using Member =
                  Of<std::optional<int>>, Of<std::uint64_t>, Of<bool>, Choice,
                  Of<std::vector<scene::Channel>>, Of<std::optional<scene::FrequencyRange>>,
                  Of<scene::TimedProfile>, Of<std::vector<scene::SpeedPoint>>,
-                 Of<std::vector<scene::TargetStep>>, Periods, InPlaceOf, ConstantSpeed, OwnOfLaw>;
+                 Of<std::vector<scene::TargetStep>>, Of<std::optional<scene::Texture>>, Periods,
+                 InPlaceOf, ConstantSpeed, OwnOfLaw>;
 
 /// A condition on the scene, under which a key is used.
 struct Use {
@@ -184,9 +194,9 @@ struct Key {
   Member member;
   Allowed allowed;
   Absent absent;
-  std::string meaning;                ///< one line
-  Uses uses = {};                     ///< all must hold; none: every scene uses the key
-  std::string_view replaced_by = {};  ///< the key that may be there in its place
+  std::string meaning;  ///< one line
+  Uses uses = {};       ///< all must hold; none: every scene uses the key
+  std::array<std::string_view, 2> replaced_by = {};  ///< see others()
 
   bool used(const scene::Scene& scene) const {
     for (const Use& use : uses) {
@@ -195,6 +205,16 @@ struct Key {
       }
     }
     return true;
+  }
+  /// The keys that may be there in its place.
+  std::vector<std::string_view> others() const {
+    std::vector<std::string_view> names;
+    for (const std::string_view each : replaced_by) {
+      if (!each.empty()) {
+        names.push_back(each);
+      }
+    }
+    return names;
   }
   /// The mode, the laws or the methods that use the key, in words; empty: every scene.
   std::string used_text() const;

@@ -10,6 +10,7 @@
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "host_sim/scene_file/keys.hpp"
+#include "host_sim/scene_file/table_cursor.hpp"
 
 namespace sonoglide::scene_file {
 namespace {
@@ -38,6 +39,13 @@ struct AllowedText {
     return fmt::format("`[lowest, highest]`, {}", bounds(interval.range));
   }
   std::string operator()(const Truth& /*truth*/) const { return "true, false"; }
+  std::string operator()(const TextureTable& texture) const {
+    return fmt::format(
+        "`{{ period_m = length, ratio = [value, ...] }}`; length {}, {} to {} values {}; or "
+        "`force_N` in place of `ratio`, values {}",
+        bounds(texture.period), TableCursor::fewest_points, TableCursor::most_points,
+        bounds(texture.ratio), bounds(texture.force));
+  }
   std::string operator()(const Spread& spread) const {
     const std::string range =
         fmt::format("`{{ range = [lowest, highest] }}`, {}", bounds(spread.range));
@@ -50,7 +58,7 @@ struct AllowedText {
 struct AbsentText {
   std::string operator()(const Required& /*required*/) const { return "required"; }
   std::string operator()(const Instead& instead) const {
-    return fmt::format("required, or {}", instead.other);
+    return fmt::format("required, or {}", instead.others);
   }
   std::string operator()(double number) const { return fmt::format("{}", number); }
   std::string operator()(std::string_view word) const { return fmt::format("\"{}\"", word); }

@@ -114,18 +114,44 @@ void check_sensing(const TableCursor& cursor, const scene::Scene& so_far) {
 /// No vibration raises the friction.
 void check_target_force(const TableCursor& cursor, const scene::Scene& so_far) {
   const double most_N = so_far.friction.largest_limit_N();
-  for (const scene::TargetStep& step : so_far.controller->target_friction_force_N) {
-    if (step.value > most_N) {
-      cursor.fail("target_friction_force_N",
+  const scene::Controller& controller = *so_far.controller;
+  for (const double force_N : controller.target_values()) {
+    if (force_N > most_N) {
+      cursor.fail(controller.target_key(),
                   fmt::format("{:g} N is more than the friction, which is {:g} N at most; allowed: "
                               "above 0, at most {} N",
-                              step.value, most_N, scene::at_most(most_N)));
+                              force_N, most_N, scene::at_most(most_N)));
     }
   }
+  if (controller.friction == scene::FrictionSource::tracked) {
+    cursor.fail(
+        "friction",
+        fmt::format("\"tracked\" is not for {}, where feedback holds the force whatever the "
+                    "friction; allowed: \"trusted\", \"calibrated\"",
+                    controller.target_key()));
+  }
+}
+
+/// The distance needs a sliding, and friction that is learnt while driving a target that stands still.
+void check_texture(const TableCursor& cursor, const scene::Scene& so_far) {
   if (so_far.controller->friction == scene::FrictionSource::tracked) {
-    cursor.fail("friction",
-                "\"tracked\" is not for target_friction_force_N, where feedback holds the force "
-                "whatever the friction; allowed: \"trusted\", \"calibrated\"");
+    cursor.fail(
+        "friction",
+        "\"tracked\" is not for target_texture, under which the loop never settles; allowed: "
+        "\"trusted\", \"calibrated\"");
+  }
+  if (!so_far.load && so_far.sliding.fastest_m_per_s() == 0.0) {
+    cursor.fail("target_texture",
+                "runs along the sliding distance, and sliding.velocity_m_per_s is 0 all the time; "
+                "allowed: a sliding that moves");
+  }
+}
+
+void check_steps(const TableCursor& cursor, const scene::Controller& controller) {
+  const double first_s = controller.targets().front().time_s;
+  if (first_s != 0.0) {
+    cursor.fail(controller.target_key(),
+                fmt::format("begins at {} s; allowed: a first time of 0 s", first_s));
   }
 }
 
@@ -142,13 +168,14 @@ void check_controller(const TableCursor& cursor, const Variant& variant, scene::
   if (scene.drive->interpolation == scene::Interpolation::linear && !cursor.has("shaping")) {
     controller.shaping.reset();
   }
-  const double first_s = controller.targets().front().time_s;
-  if (first_s != 0.0) {
-    cursor.fail(controller.holds_force() ? "target_friction_force_N" : "target_friction_ratio",
-                fmt::format("begins at {} s; allowed: a first time of 0 s", first_s));
+  if (!controller.texture) {
+    check_steps(cursor, controller);
   }
   if (controller.holds_force()) {
     check_target_force(cursor, scene);
+  }
+  if (controller.texture) {
+    check_texture(cursor, scene);
   }
   if (controller.vibration) {
     check_vibration_control(cursor, variant, scene);
@@ -162,10 +189,10 @@ void check_controller(const TableCursor& cursor, const Variant& variant, scene::
 
 void check_sensor(const TableCursor& cursor, const Variant& /*variant*/, scene::Scene& scene) {
   if (scene.controller && scene.controller->holds_force() && !scene.sensor.force) {
-    cursor.fail(
-        "force",
-        "false, but feedback on the force holds controller.target_friction_force_N; allowed: "
-        "true, or a target_friction_ratio");
+    cursor.fail("force",
+                fmt::format("false, but feedback on the force holds controller.{}; allowed: "
+                            "true, or a target_friction_ratio",
+                            scene.controller->target_key()));
   }
   if (scene.controller && scene.controller->vibration) {
     check_sensing(cursor, scene);

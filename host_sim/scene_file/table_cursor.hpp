@@ -52,6 +52,12 @@ class TableCursor {
   std::vector<Pair> timed_values(std::string_view key, const Range& time, const Range& value,
                                  Times times) const;
 
+  /// Numbers of a texture over one period.
+  static constexpr std::size_t fewest_points = 2;
+  static constexpr std::size_t most_points = 1024;
+  /// `{ period_m = length, ratio = [value, …] }`, or force_N in place of ratio.
+  scene::Texture texture(std::string_view key, const TextureTable& allowed) const;
+
   /// A key of [tolerance]; its nominal value is left open, and so are the ends that follow from it.
   scene::Tolerance spread(std::string_view key, const Spread& allowed) const;
   /// Every key of the table that is there: in the order of the file, options after it.
@@ -92,6 +98,8 @@ class TableCursor {
 
   double number_in(const toml::node& node, const Part& part, const Range& range) const;
   std::size_t word_in(const toml::node& node, const Part& part, const Words& allowed) const;
+  std::vector<double> points_in(std::string_view key, const toml::node& node, const Range& range,
+                                std::string_view name) const;
   Pair ends_in(std::string_view key, const toml::node& node, const Spread& allowed) const;
   scene::Tolerance spread_in(std::string_view key, const toml::table& table,
                              const Spread& allowed) const;

@@ -63,6 +63,12 @@ class Reading {
     }
   }
 
+  void operator()(Of<std::optional<scene::Texture>> texture) const {
+    if (given_) {
+      texture(scene_) = cursor_.texture(key_.name, std::get<TextureTable>(key_.allowed));
+    }
+  }
+
   void operator()(Of<scene::TimedProfile> profile) const {
     if (given_) {
       read_rows(profile(scene_), TableCursor::Times::jump);
@@ -171,15 +177,20 @@ void check_kind(const TableCursor& cursor, const Key& key, const scene::Scene& s
 }
 
 /// Of a key in whose place another may be.
-/// @return whether that one is
+/// @return whether one is
 bool is_replaced(const TableCursor& cursor, const Key& key) {
-  if (key.replaced_by.empty()) {
-    return false;
+  const std::vector<std::string_view> others = key.others();
+  bool replaced = false;
+  for (auto other = others.begin(); other != others.end(); ++other) {
+    cursor.exclude(key.name, *other);
+    std::for_each(others.begin(), other,
+                  [&](std::string_view before) { cursor.exclude(before, *other); });
+    replaced = replaced || cursor.has(*other);
   }
-  cursor.exclude(key.name, key.replaced_by);
-  const bool replaced = cursor.has(key.replaced_by);
-  if (!replaced && !cursor.has(key.name) && std::holds_alternative<Instead>(key.absent)) {
-    cursor.fail(key.name, fmt::format("missing; required: {} or {}", key.name, key.replaced_by));
+  if (!others.empty() && !replaced && !cursor.has(key.name) &&
+      std::holds_alternative<Instead>(key.absent)) {
+    cursor.fail(key.name,
+                fmt::format("missing; required: {} or {}", key.name, fmt::join(others, " or ")));
   }
   return replaced;
 }

@@ -135,6 +135,10 @@ inline const Uses needed_force_sensor = {{"sensor.force = true", is_closed, ""}}
 inline const Uses ratio_target = {
     {"target_friction_ratio", [](const Scene& scene) { return !scene.controller->holds_force(); },
      "with target_friction_force_N, where feedback holds the force whatever the friction"}};
+/// Of what needs times in which the target stands still.
+inline const Uses steady_target = {{"",
+                                    [](const Scene& scene) { return !scene.controller->texture; },
+                                    "with target_texture, which changes all the time"}};
 inline bool samples_force(const Scene& scene) {
   return scene.sensor.samples_per_period.has_value();
 }

@@ -40,6 +40,12 @@ void judge_steps(const std::vector<report::StepMetrics>& steps, Precision& resul
 }  // namespace
 
 void require_every_arithmetic(const scene::Scene& scene) {
+  if (scene.controller && scene.controller->texture) {
+    throw configure::ConfigurationError(
+        "controller.target_texture",
+        "arithmetics are compared by how target steps settle; allowed: target_friction_ratio or "
+        "target_friction_force_N");
+  }
   if (scene.controller && scene.controller->vibration) {
     throw configure::ConfigurationError(
         "controller.vibration",

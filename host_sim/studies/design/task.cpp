@@ -21,6 +21,12 @@ void require_steady_vibration(const scene::Scene& scene) {
         "loop; required: a table [controller], and drive.max_force_amplitude_N or, with a "
         "[transducer], drive.max_voltage_amplitude_V");
   }
+  if (scene.controller->texture) {
+    throw configure::ConfigurationError(
+        "controller.target_texture",
+        "a design is for targets that stand still; allowed: target_friction_ratio with the lowest and "
+        "the highest ratio of the texture, or target_friction_force_N");
+  }
   if (scene.load) {
     throw configure::ConfigurationError(
         "load",
@@ -50,8 +56,7 @@ void require_some_ratio(const scene::Scene& scene, const std::vector<double>& ra
       std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return is_allowed(ratio); });
   if (!some) {
     throw configure::ConfigurationError(
-        scene.controller->holds_force() ? "controller.target_friction_force_N"
-                                        : "controller.target_friction_ratio",
+        fmt::format("controller.{}", scene.controller->target_key()),
         fmt::format("no target to design for; allowed: at least one of {} to below 1",
                     least_ratio));
   }

@@ -19,6 +19,12 @@ experiment::Experiment read_own(const scene_file::Document& document) {
                                  "missing; required: a table [controller], whose loop is to hold "
                                  "inside the tolerances");
   }
+  if (read.nominal.controller->texture) {
+    throw scene_file::SceneError(document.place_of("controller.target_texture"),
+                                 "controller.target_texture",
+                                 "robust counts target steps that settle; allowed: "
+                                 "target_friction_ratio or target_friction_force_N");
+  }
   if (read.nominal.tolerances.empty()) {
     throw scene_file::SceneError(
         document.place_of("tolerance"), "tolerance",

@@ -534,7 +534,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "1:1: drive: missing; required: a table [drive] for the [controller] to act by"},
     {"missing_target", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]\n", "",
      "15:2: controller.target_friction_ratio: missing; required: target_friction_ratio or "
-     "target_friction_force_N"},
+     "target_friction_force_N or target_texture"},
     {"two_targets", closed_loop, "target_friction_ratio",
      "target_friction_force_N = [[0.0, 0.01]]\ntarget_friction_ratio",
      "18:1: controller.target_friction_ratio: excludes target_friction_force_N; allowed: one of the "
@@ -574,6 +574,61 @@ const std::vector<BrokenScene> broken_scenes = {
      "[model_error]\ncoefficient = 0.5\n",
      "17:27: controller.target_friction_force_N: 0.015 N is not below sensor.force_full_scale_N, 0.012 "
      "N; allowed: at most 0.012 N"},
+    {"texture_beside_a_ratio", closed_loop, "target_friction_ratio",
+     "target_texture = { period_m = 1e-4, ratio = [0.4, 0.6] }\ntarget_friction_ratio",
+     "18:1: controller.target_friction_ratio: excludes target_texture; allowed: one of the two"},
+    {"texture_beside_a_force", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratio = [0.4, 0.6] }\n"
+     "target_friction_force_N = [[0.0, 0.01]]",
+     "18:1: controller.target_friction_force_N: excludes target_texture; allowed: one of the two"},
+    {"texture_of_a_number", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = 0.5",
+     "17:18: controller.target_texture: is a real number; allowed: { period_m = a length, ratio = "
+     "[number, number, …] }, or force_N in place of ratio"},
+    {"texture_without_a_period", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { ratio = [0.4, 0.6] }",
+     "17:18: controller.target_texture: has no period_m; allowed: { period_m = a length, ratio = "
+     "[number, number, …] }, or force_N in place of ratio"},
+    {"texture_of_nothing", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4 }",
+     "17:18: controller.target_texture: has neither ratio nor force_N; allowed: one of the two"},
+    {"texture_of_both", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratio = [0.4, 0.6], force_N = [0.01, 0.012] }",
+     "17:18: controller.target_texture: has both ratio and force_N; allowed: one of the two"},
+    {"texture_with_a_strange_key", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratios = [0.4, 0.6] }",
+     "17:18: controller.target_texture: has an unknown ratios; allowed: { period_m = a length, ratio = "
+     "[number, number, …] }, or force_N in place of ratio"},
+    {"texture_of_one_number", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratio = [0.4] }",
+     "17:18: controller.target_texture: ratio is an array of 1; allowed: a list of 2 to 1024 numbers, "
+     "above 0, at most 1"},
+    {"texture_of_a_ratio_above_1", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratio = [0.4, 1.1] }",
+     "17:51: controller.target_texture[1]: 1.1 is out of range; allowed: above 0, at most 1"},
+    {"texture_of_a_negative_period", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = -1e-4, ratio = [0.4, 0.6] }",
+     "17:31: controller.target_texture: -0.0001 is out of range; allowed: 1e-12 to 1000 m"},
+    {"texture_above_the_friction", closed_loop,
+     "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, force_N = [0.01, 0.02] }",
+     "17:18: controller.target_texture: 0.02 N is more than the friction, which is 0.01962 N at most; "
+     "allowed: above 0, at most 0.01962 N"},
+    {"texture_tracked", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratio = [0.4, 0.6] }\nfriction = \"tracked\"",
+     "18:12: controller.friction: \"tracked\" is not for target_texture, under which the loop never "
+     "settles; allowed: \"trusted\", \"calibrated\""},
+    {"texture_relearnt", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-4, ratio = [0.4, 0.6] }\nrelearn_every_s = 1e-3",
+     "18:1: controller.relearn_every_s: not used with target_texture, which changes all the time; "
+     "remove it"},
+    {"texture_too_fine", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "target_texture = { period_m = 1e-6, ratio = [0.4, 0.6] }",
+     "17:18: controller.target_texture: a period_m of 1e-06 m is too short for steps of 1.67e-05 s at "
+     "0.0267 m/s; allowed: 3.56001e-06 to 598.775 m"},
     {"missing_step", open_loop, "method = \"event_taylor\"\ntolerance = 1e-10", "method = \"rk4\"",
      "14:2: solver.step_s: missing; required: a number, 1e-15 to 1 s"},
     // Keys that the scene cannot use

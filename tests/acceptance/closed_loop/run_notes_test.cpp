@@ -138,5 +138,61 @@ TEST(RunNotesTest, ATrueCurrentAboveItsLimitIsToldAndNamed) {
   EXPECT_NE(told.page.find("The current reached"), std::string::npos);
 }
 
+/// Ratio 0.5 ± 0.2 at the plate of haptic_plate.toml with Q 200, of a period that is passed so many times a
+/// second.
+Told run_texture(const std::string& period_m, const std::string& settings) {
+  return run(
+      "haptic_plate",
+      "--set controller.target_friction_ratio= --set 'controller.target_texture={ period_m = " +
+          period_m + ", ratio = [0.5, 0.64, 0.7, 0.64, 0.5, 0.36, 0.3, 0.36] }' " + settings);
+}
+
+TEST(RunNotesTest, ATextureIsToldByItsHarmonics) {
+  const Told told = run_texture("1e-3", "--set run.duration_s=0.1");
+  const nlohmann::json& control = told.summary["control"];
+  EXPECT_TRUE(control["steps"].empty());
+  EXPECT_GE(control["texture_periods"], 3);
+  const nlohmann::json& mean = control["texture"][0];
+  EXPECT_EQ(mean["harmonic"], 0);
+  EXPECT_NEAR(mean["amplitude"].get<double>(), 0.5, 0.01);
+  EXPECT_FALSE(mean.contains("phase_deg"));
+  const nlohmann::json& first = control["texture"][1];
+  EXPECT_EQ(first["harmonic"], 1);
+  EXPECT_NEAR(first["target_phase_deg"].get<double>(), -90.0, 1e-6);
+  EXPECT_NEAR(first["amplitude"].get<double>(), first["target_amplitude"].get<double>(), 0.01);
+  EXPECT_NEAR(first["phase_deg"].get<double>(), -90.0, 5.0);
+  EXPECT_NE(told.terminal.find("whole periods of it in the second half of the run"),
+            std::string::npos);
+  EXPECT_NE(told.page.find("Friction ratio over the sliding distance"), std::string::npos);
+  EXPECT_EQ(told.before.find("texture"), std::string::npos);
+}
+
+TEST(RunNotesTest, ATextureThatIsTooSteepIsToldBeforeAndNamed) {
+  const Told told =
+      run_texture("0.08e-3", "--set run.duration_s=0.02 --set plant.damping_N_s_per_m=31.1");
+  EXPECT_NE(told.before.find("the texture asks for changes of the vibration that are up to"),
+            std::string::npos);
+  EXPECT_NE(told.before.find("the limit voltage cuts them"), std::string::npos);
+  EXPECT_GT(told.summary["control"]["limited_periods"]["voltage"], 50);
+  EXPECT_NE(told.page.find("more than 5 % or 20 degrees off"), std::string::npos);
+}
+
+TEST(RunNotesTest, ATextureOfWhichNoPeriodIsPassedIsTold) {
+  const Told told = run_texture("10e-3", "--set run.duration_s=0.01");
+  EXPECT_TRUE(told.summary["control"]["texture"][1]["amplitude"].is_null());
+  EXPECT_NE(told.page.find("No whole period of the texture is passed"), std::string::npos);
+}
+
+TEST(RunNotesTest, ATextureIsRefusedWhereTargetsHaveToStandStill) {
+  const ScratchFolder folder;
+  const std::string scene = SONOGLIDE_SCENES "/fingertip.toml";
+  for (const std::string& command :
+       {"sweep " + scene + " --vary run.settling_band=0.01:0.02:2", "design " + scene}) {
+    const Outcome outcome = folder.run(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_NE(outcome.err.find("controller.target_texture"), std::string::npos) << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::acceptance::run_notes_test

@@ -46,7 +46,8 @@ inline std::vector<std::string> every_scene() {
   std::vector<std::string> texts = {
       fullest_open_loop,    curve_open_loop,    bristles_open_loop,   springs_open_loop,
       normal_open_loop,     profiles_open_loop, transducer_open_loop, transducer_closed_loop,
-      resonant_closed_loop, damped_closed_loop, fullest_closed_loop,  load_open_loop};
+      resonant_closed_loop, damped_closed_loop, fullest_closed_loop,  load_open_loop,
+      textured_closed_loop};
   const std::vector<std::string> plain = texts;
   for (const std::string& text : plain) {
     texts.push_back(with_every_number(text, "tolerance"));

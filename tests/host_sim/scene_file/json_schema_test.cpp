@@ -95,6 +95,29 @@ struct WrongValues {
     return values;
   }
   std::vector<std::string> operator()(const Truth& /*truth*/) const { return {"1", "'true'"}; }
+  std::vector<std::string> operator()(const TextureTable& texture) const {
+    std::vector<std::string> values = {"1",
+                                       "{}",
+                                       "[0.5, 0.6]",
+                                       "{ ratio = [0.5, 0.6] }",
+                                       "{ period_m = 1e-3 }",
+                                       "{ period_m = 1e-3, ratio = 0.5 }",
+                                       "{ period_m = 1e-3, ratio = [0.5] }",
+                                       "{ period_m = 1e-3, ratio = [0.5, '0.6'] }",
+                                       "{ period_m = '1', ratio = [0.5, 0.6] }",
+                                       "{ period_m = 1e-3, ratio = [0.5, 0.6], force_N = [1, 2] }",
+                                       "{ period_m = 1e-3, ratio = [0.5, 0.6], phase = 1 }"};
+    for (const std::string& number : wrong_numbers(texture.period)) {
+      values.push_back(fmt::format("{{ period_m = {}, ratio = [0.5, 0.6] }}", number));
+    }
+    for (const std::string& number : wrong_numbers(texture.ratio)) {
+      values.push_back(fmt::format("{{ period_m = 1e-3, ratio = [0.5, {}] }}", number));
+    }
+    for (const std::string& number : wrong_numbers(texture.force)) {
+      values.push_back(fmt::format("{{ period_m = 1e-3, force_N = [0.5, {}] }}", number));
+    }
+    return values;
+  }
   std::vector<std::string> operator()(const Spread& spread) const {
     std::vector<std::string> values = {"true",
                                        "'0.1'",

@@ -262,6 +262,25 @@ samples_per_period = 8
 filter_Hz = 60e3
 )";
 
+inline constexpr const char* textured_closed_loop = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "dahl"
+coefficient = 0.1
+contact_stiffness_N_per_m = 0.056e6
+[sliding]
+velocity_m_per_s = 0.0267
+[drive]
+frequency_Hz = 60e3
+max_force_amplitude_N = 1920
+[run]
+duration_s = 2e-3
+[controller]
+arithmetic = "q31"
+target_texture = { period_m = 1e-4, ratio = [0.4, 0.6, 0.5] }
+)";
+
 /// Nothing that has a default.
 inline constexpr const char* shortest_closed_loop = R"([plant]
 mass_kg = 0.02
