@@ -2,16 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
-#include "firmware/control/friction/friction_level.hpp"
-#include "firmware/control/friction/periodic_relearning.hpp"
-#include "firmware/control/interface/drive_command.hpp"
-#include "firmware/control/limits/sample_inspection.hpp"
-#include "firmware/control/limits/standstill_hold.hpp"
-#include "firmware/control/limits/tolerant_samples.hpp"
 #include "firmware/control/parts.hpp"
-#include "firmware/control/speed_foresight.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -30,9 +22,6 @@ class Controller {
   using Measurement = typename PartsT::Vibration::Measurement;
   using Command = typename PartsT::Vibration::Command;
   using Parameters = ControllerParameters<PartsT>;
-  static constexpr bool observed = PartsT::Vibration::observed;  ///< the vibration
-  // A vibration is foreseen from one sample to the next, so that none may be left out.
-  static_assert(!observed || std::is_same_v<typename PartsT::Samples, StrictSamples>);
 
   /// @param parameters  outlive this: a part may leave a table where it is
   explicit Controller(const Parameters& parameters)
@@ -230,9 +219,8 @@ class Controller {
     interrupt_relearning();
   }
 
-  /// Answer below the speed floor, or where the speed is above the range of its converter and so of
-  /// every vibration: feedback waits, and the last request stands for a while. A target of no drive
-  /// gives no drive here either. @param limit  that is named
+  /// Answer below the speed floor, or above the range of the speed's converter: feedback waits, and the
+  /// last request stands for a while; a target of no drive gives none here either.
   Request stand(Limit limit) {
     interrupt();
     return target_ < whole_ratio() ? slewed({standstill_.request(requested_), limit})

@@ -1,7 +1,6 @@
 /// Whether a sensor tells the friction force.
 #pragma once
 
-#include "firmware/control/friction/remembered_map.hpp"
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/control/interface/part_name.hpp"
 
@@ -32,8 +31,6 @@ struct ForceSensor {
   static constexpr bool present = true;
   template <class Part>
   using Judge = Part;
-  template <class Feedforward>
-  using Map = EvaluatedMap<Feedforward>;
 };
 
 /// The ratio rests on the vibration and on the friction that the controller believes.
@@ -43,8 +40,6 @@ struct NoForceSensor {
   static constexpr bool present = false;
   template <class Part>
   using Judge = NothingToJudge;
-  template <class Feedforward>
-  using Map = RememberedMap<Feedforward>;
 };
 
 }  // namespace sonoglide::control

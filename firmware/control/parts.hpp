@@ -1,11 +1,17 @@
 /// What a controller is made of, and the numbers that it works with.
 #pragma once
 
+#include <type_traits>
+
 #include "firmware/control/feedback/settling_watch.hpp"
 #include "firmware/control/force_sensing.hpp"
+#include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/friction/periodic_relearning.hpp"
+#include "firmware/control/friction/remembered_map.hpp"
+#include "firmware/control/friction/speed_foresight.hpp"
 #include "firmware/control/limits/drive_limit.hpp"
 #include "firmware/control/limits/plausibility.hpp"
+#include "firmware/control/limits/sample_inspection.hpp"
 #include "firmware/control/limits/standstill_hold.hpp"
 #include "firmware/control/limits/stuck_detector.hpp"
 #include "firmware/control/limits/tolerant_samples.hpp"
@@ -42,7 +48,12 @@ struct Parts {
   using Stuck = typename Force::template Judge<StuckDetector<Scalar>>;
   using Plausible = typename Force::template Judge<Plausibility<Scalar>>;
   using Watch = typename Force::template Judge<SettlingWatch<Scalar>>;
-  using Map = typename Force::template Map<Feedforward>;
+  // Measured ratios move the commanded one all the time.
+  using Map =
+      std::conditional_t<Force::present, EvaluatedMap<Feedforward>, RememberedMap<Feedforward>>;
+
+  // A vibration is foreseen from one sample to the next, so that none may be left out.
+  static_assert(!Vibration::observed || std::is_same_v<Samples, StrictSamples>);
 };
 
 /// Smallest usable speed floor, per unit: where the controller's resolution ends.

@@ -1,4 +1,4 @@
-#include "firmware/control/speed_foresight.hpp"
+#include "firmware/control/friction/speed_foresight.hpp"
 
 #include <gtest/gtest.h>
 
