@@ -79,7 +79,7 @@ struct Job {
 /// Writes `COMMAND.slurm` to the folder, and a copy of the scene, which no later edit reaches.
 /// @return what to tell
 /// @throws CLI::ValidationError  more shards than points
-/// @throws output::OutputError
+/// @throws process::FileError
 std::string write_job(const Job& job, const std::filesystem::path& out);
 
 }  // namespace sonoglide::cli

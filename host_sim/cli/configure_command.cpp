@@ -22,7 +22,7 @@ struct ConfigureOptions {
   bool quiet = false;
 };
 
-/// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
+/// Throws scene_file::SceneError, process::FileError; in each case nothing was written.
 void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();

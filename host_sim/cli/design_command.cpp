@@ -50,7 +50,7 @@ std::string check_ratio(const std::string& text) {
              : fmt::format("\"{}\"; allowed: a number, {}", text, design::allowed_ratios());
 }
 
-/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
+/// Throws scene_file::SceneError, loop::ComputationError, process::FileError,
 /// process::ProcessError; in each case nothing was written.
 void design(const DesignOptions& options) {
   const SceneInput input(options.scene);

@@ -37,7 +37,7 @@ std::function<std::string(const std::string&)> in_range(const impedance::Range& 
   };
 }
 
-/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
+/// Throws scene_file::SceneError, loop::ComputationError, process::FileError,
 /// process::ProcessError; in each case nothing was written.
 void identify_impedance(const IdentifyOptions& options) {
   const scene_file::Source source = identify::read_text(options.file);
@@ -49,7 +49,7 @@ void identify_impedance(const IdentifyOptions& options) {
       impedance::report);
 }
 
-/// Throws scene_file::SceneError, output::OutputError; in each case nothing was written.
+/// Throws scene_file::SceneError, process::FileError; in each case nothing was written.
 void identify_friction(const IdentifyOptions& options) {
   const scene_file::Source source = identify::read_text(options.file);
   const fitting::Readings readings = fitting::read_readings(source);

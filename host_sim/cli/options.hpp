@@ -101,7 +101,7 @@ void add_study_options(CLI::App& command, StudyOptions& options, const std::stri
 /// @param files    their names
 /// @param compute  gives the study; it is told how to say how far it is
 /// @param report   makes an output::StudyReport of it
-/// @throws output::OutputError
+/// @throws process::FileError
 template <class Compute, class Report>
 void run_study(const StudyOptions& options, const std::filesystem::path& out,
                const std::vector<std::string>& files, const Compute& compute,

@@ -34,7 +34,7 @@ std::string check_figure(const std::string& text) {
   return fmt::format("\"{}\" is no figure; allowed: {}", text, allowed);
 }
 
-/// Throws output::OutputError, process::ProcessError, loop::ComputationError; in each case nothing
+/// Throws process::FileError, process::ProcessError, loop::ComputationError; in each case nothing
 /// was written.
 void paper(const PaperOptions& options) {
   output::require_gnuplot();

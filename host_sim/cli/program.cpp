@@ -21,6 +21,7 @@
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/program.hpp"
 #include "host_sim/process/ending.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
@@ -41,9 +42,9 @@ std::string command_line(int argument_count, const char* const* arguments) {
 void flush_output() {
   errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw output::OutputError(errno == 0 ? "standard output: cannot be written"
-                                         : "standard output: cannot be written: " +
-                                               std::generic_category().message(errno));
+    throw process::FileError(errno == 0 ? "standard output: cannot be written"
+                                        : "standard output: cannot be written: " +
+                                              std::generic_category().message(errno));
   }
 }
 
@@ -122,7 +123,7 @@ int run_program(int argument_count, const char* const* arguments,
     return fail(computation_failed, error.what());
   } catch (const long_work::Incomplete& error) {
     return fail(computation_failed, error.what());
-  } catch (const output::OutputError& error) {
+  } catch (const process::FileError& error) {
     return fail(system_failed, error.what());
   } catch (const process::ProcessError& error) {
     return fail(system_failed, error.what());

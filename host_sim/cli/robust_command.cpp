@@ -168,7 +168,7 @@ std::string write_robust_job(const RobustOptions& options) {
 }
 
 /// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; long_work::Incomplete,
-/// output::OutputError.
+/// process::FileError.
 void robust(const CLI::App& command, const RobustOptions& options) {
   run_divisible(command, options.cluster, {"scene"},
                 {[&] { return run_whole(options); }, [&] { return run_shard(options); },

@@ -65,7 +65,7 @@ std::string compute_report(const experiment::Experiment& experiment,
              : report::run_text(experiment.plant, result, report.findings()) + report_line(out);
 }
 
-/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError, or ends by the
+/// Throws scene_file::SceneError, loop::ComputationError, process::FileError, or ends by the
 /// signal that interrupts it; in each case nothing was written.
 void run(const RunOptions& options) {
   const experiment::Experiment experiment = SceneInput(options.scene).read();

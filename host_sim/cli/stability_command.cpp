@@ -17,7 +17,7 @@ struct StabilityOptions {
   StudyOptions study;
 };
 
-/// Throws output::OutputError, process::ProcessError; in each case nothing was written.
+/// Throws process::FileError, process::ProcessError; in each case nothing was written.
 void solvers(const StudyOptions& options, const StabilityWork& work) {
   run_study(
       options, options.out.empty() ? "out/stability" : options.out,
@@ -29,7 +29,7 @@ void solvers(const StudyOptions& options, const StabilityWork& work) {
       stability::report);
 }
 
-/// Throws scene_file::SceneError, output::OutputError, process::ProcessError; in each case nothing was
+/// Throws scene_file::SceneError, process::FileError, process::ProcessError; in each case nothing was
 /// written.
 void self_excited(const StabilityOptions& options) {
   const SceneInput input(options.scene);

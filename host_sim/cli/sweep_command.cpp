@@ -117,7 +117,7 @@ std::string write_sweep_job(const SweepOptions& options) {
 }
 
 /// Throws scene_file::SceneError and CLI::ParseError, nothing was written then; long_work::Incomplete,
-/// output::OutputError, process::ProcessError.
+/// process::FileError, process::ProcessError.
 void sweep(const CLI::App& command, const SweepOptions& options) {
   run_divisible(command, options.cluster, {"scene", "--vary"},
                 {[&] { return run_whole(options); }, [&] { return run_shard(options); },

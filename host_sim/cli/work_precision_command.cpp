@@ -14,7 +14,7 @@ struct WorkPrecisionOptions {
   StudyOptions study;
 };
 
-/// Throws scene_file::SceneError, loop::ComputationError, output::OutputError,
+/// Throws scene_file::SceneError, loop::ComputationError, process::FileError,
 /// process::ProcessError; in each case nothing was written.
 void work_precision(const WorkPrecisionOptions& options) {
   const SceneInput input(options.scene);

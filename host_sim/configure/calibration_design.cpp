@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "firmware/numeric/float_elementary.hpp"
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -171,7 +170,7 @@ double gain_deviation(const scene::Scene& scene, const NominalPlant& plant) {
   constexpr double stiffness = 0.05;
   constexpr double force_factor = 0.25;
   constexpr double most = 0.3;
-  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double omega = scene.drive->rate_rad_per_s();
   const double of_stiffness =
       stiffness * plant.stiffness_N_per_m / dynamic_stiffness_N_per_m(plant, omega);
   return std::min(most, root_of_squares(scene.transducer ? force_factor : drive, of_stiffness));

@@ -89,8 +89,7 @@ scene::FrictionLaw acting_law(const scene::Friction& friction) {
 }
 
 scene::PlantScales plant_scales(const scene::Scene& scene) {
-  const double omega =
-      scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : own_rate_rad_per_s(scene);
+  const double omega = scene.drive ? scene.drive->rate_rad_per_s() : own_rate_rad_per_s(scene);
   const double length_m = motion_m(scene, omega);
   return {omega, length_m, scene.plant.mass_kg * length_m * omega * omega,
           scene.friction.limit_N()};

@@ -9,7 +9,6 @@
 
 #include "firmware/control/controller.hpp"
 #include "firmware/control/friction/friction_level.hpp"
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/scene/bound.hpp"
@@ -139,7 +138,7 @@ void require_sliding(const scene::Scene& scene, double fastest_m_per_s) {
 }
 
 double damped_range_m_per_s(const scene::Scene& scene, const NominalPlant& plant) {
-  require_settling(plant, numeric::two_pi * scene.drive->frequency_Hz);
+  require_settling(plant, scene.drive->rate_rad_per_s());
   return damped_full_scale_m_per_s(scene, plant);
 }
 
@@ -163,13 +162,13 @@ double set_observed_scales(const scene::Scene& scene, const NominalPlant& plant,
   design.scales = {1.0 / scene.drive->frequency_Hz, force_N, velocity_m_per_s,
                    scene.max_drive_force_N()};
   require_wide_range(velocity_m_per_s, fastest_m_per_s);
-  return velocity_m_per_s / (numeric::two_pi * scene.drive->frequency_Hz);
+  return velocity_m_per_s / (scene.drive->rate_rad_per_s());
 }
 
 /// @return displacement amplitude at the velocity that is the base of all
 double set_driven_scales(const scene::Scene& scene, const NominalPlant& plant, double room,
                          ControlDesign& design) {
-  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double omega = scene.drive->rate_rad_per_s();
   require_settling(plant, omega);
   const double displacement_m =
       room * scene.max_drive_force_N() / dynamic_stiffness_N_per_m(plant, omega);

@@ -17,8 +17,8 @@
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/emulated/initialiser.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene/bound.hpp"
 

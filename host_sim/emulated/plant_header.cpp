@@ -16,7 +16,7 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/plant_model.hpp"
 #include "host_sim/emulated/initialiser.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant/plant_description.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/process/printable.hpp"

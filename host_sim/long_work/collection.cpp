@@ -13,7 +13,7 @@
 #include "host_sim/long_work/rows_file.hpp"
 #include "host_sim/long_work/run_shard.hpp"
 #include "host_sim/long_work/slurm.hpp"
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::long_work {
@@ -41,7 +41,7 @@ std::vector<NamedFile> files_in(const fs::path& folder) {
     }
   }
   if (error) {
-    output::fail(folder, error);
+    process::fail(folder, error);
   }
   std::sort(files.begin(), files.end(), [](const NamedFile& a, const NamedFile& b) {
     return std::tie(a.name.shard.number, a.name.kind, a.path) <

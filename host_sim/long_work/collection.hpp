@@ -50,7 +50,7 @@ struct BegunShard {
 class Collection {
  public:
   /// Reads the names in the folder and the header of each shard, but no record.
-  /// @throws UnusableShards, output::OutputError
+  /// @throws UnusableShards, process::FileError
   explicit Collection(std::filesystem::path folder);
 
   const Work& work() const { return *work_; }

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "host_sim/long_work/pace.hpp"
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 
@@ -49,10 +48,10 @@ void Journal::open() {
   const bool link = file_.number() < 0 && errno == ELOOP;
   struct stat facts {};
   if (!link && (file_.number() < 0 || fstat(file_.number(), &facts) != 0)) {
-    output::fail(path_);
+    process::fail(path_);
   }
   if (!S_ISREG(facts.st_mode)) {
-    output::fail(
+    process::fail(
         path_,
         "is no file that can hold a journal; allowed: that out of the way, or another folder");
   }
@@ -72,7 +71,7 @@ void Journal::append(const std::vector<FinishedPoint>& points) {
 void Journal::remove() {
   std::error_code error;
   if (!std::filesystem::remove(path_, error) && error) {
-    output::fail(path_, error);
+    process::fail(path_, error);
   }
 }
 
@@ -84,7 +83,7 @@ void Journal::lock() {
     throw JournalInUse(fmt::format("{}: another {} is at work in this folder",
                                    process::printable(path_.string()), kind_.work));
   }
-  output::fail(path_);
+  process::fail(path_);
 }
 
 std::string Journal::header_text(const Identity& identity) const {
@@ -122,7 +121,7 @@ void Journal::begin_with(const std::filesystem::path& another, const Identity& i
     return;
   }
   if (ftruncate(file_.number(), 0) != 0) {
-    output::fail(path_);
+    process::fail(path_);
   }
   constexpr std::size_t part_bytes = std::size_t{1} << 20U;
   std::string part(part_bytes, '\0');
@@ -160,7 +159,7 @@ void Journal::recover(const Identity& identity, const Take& take) {
       refuse(path_, "another format of journal");
     }
     if (ftruncate(file_.number(), 0) != 0) {
-      output::fail(path_);
+      process::fail(path_);
     }
     write_all(file_, path_, first_line);
     sync();
@@ -179,7 +178,7 @@ void Journal::recover(const Identity& identity, const Take& take) {
     whole = journal.tellg();
   }
   if (ftruncate(file_.number(), whole) != 0) {
-    output::fail(path_);
+    process::fail(path_);
   }
 }
 
@@ -200,7 +199,7 @@ void Journal::sync_now_and_then() {
 
 void Journal::sync() {
   if (fdatasync(file_.number()) != 0) {
-    output::fail(path_);
+    process::fail(path_);
   }
   last_sync_s_ = steady_time_s();
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "host_sim/long_work/record.hpp"
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::long_work {
@@ -36,9 +36,9 @@ class ForeignJournal : public std::runtime_error {
 };
 
 /// Somebody else has the journal open.
-class JournalInUse : public output::OutputError {
+class JournalInUse : public process::FileError {
  public:
-  using OutputError::OutputError;
+  using FileError::FileError;
 };
 
 /// Appends records to a file. The first line is the identity, every further one a record; each
@@ -55,7 +55,7 @@ class Journal {
   /// @param take     called with each record that is there; what it does not take counts as damaged
   /// @param another  a journal of the same work, left as it is: what it holds, this one begins
   ///                 with, if that is more; empty: none
-  /// @throws ForeignJournal, JournalInUse, output::OutputError
+  /// @throws ForeignJournal, JournalInUse, process::FileError
   Journal(std::filesystem::path path, const JournalKind& kind, const Identity& identity,
           const Take& take, const std::filesystem::path& another = {});
   Journal(const Journal&) = delete;
@@ -64,7 +64,7 @@ class Journal {
   /// What the first line of a journal says, without the end of the line; absent if it is none.
   static std::optional<Identity> identity_in(std::string_view first_line);
 
-  /// From any thread. @throws output::OutputError
+  /// From any thread. @throws process::FileError
   void append(const std::vector<FinishedPoint>& points);
 
   const std::filesystem::path& path() const { return path_; }

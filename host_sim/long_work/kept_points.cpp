@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 
 namespace sonoglide::long_work {
 
@@ -71,7 +71,7 @@ bool KeptPoints::compute(Journal& journal, Pace& pace, std::uint64_t later_point
 void KeptPoints::for_each_record(const Journal& journal, const TakeRecord& take) const {
   const auto require = [&journal](bool holds) {
     if (!holds) {
-      output::fail(journal.path(), "was changed by somebody else; the same command goes on");
+      process::fail(journal.path(), "was changed by somebody else; the same command goes on");
     }
   };
   std::ifstream stream(journal.path(), std::ios::binary);

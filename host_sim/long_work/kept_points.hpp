@@ -74,13 +74,13 @@ class KeptPoints {
   /// @param later_points  to be computed in later stages
   /// @param goes_on       asked before each block and at the end; false ends it
   /// @return what goes_on has said last
-  /// @throws output::OutputError  the journal cannot be written
+  /// @throws process::FileError  the journal cannot be written
   bool compute(
       Journal& journal, Pace& pace, std::uint64_t later_points = 0,
       const std::function<bool()>& goes_on = [] { return true; });
 
   /// All points are finished: gives each record in their order, as Collection does.
-  /// @throws output::OutputError  somebody else has changed the journal
+  /// @throws process::FileError  somebody else has changed the journal
   void for_each_record(const Journal& journal, const TakeRecord& take) const;
 
  private:

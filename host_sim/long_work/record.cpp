@@ -8,8 +8,8 @@
 #include <cstring>
 #include <system_error>
 
-#include "host_sim/output/written_files.hpp"
 #include "host_sim/process/checksum.hpp"
+#include "host_sim/process/file_error.hpp"
 
 namespace sonoglide::long_work {
 namespace {
@@ -55,7 +55,7 @@ void write_all(const process::Descriptor& file, const std::filesystem::path& pat
   while (!text.empty()) {
     const ssize_t count = ::write(file.number(), text.data(), text.size());
     if (count < 0 && errno != EINTR) {
-      output::fail(path);
+      process::fail(path);
     }
     text.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
   }

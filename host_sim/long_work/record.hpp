@@ -31,7 +31,7 @@ bool next_line(std::ifstream& file, std::string& line);
 
 /// Writes all of it, signals or no.
 /// @param path  of the file
-/// @throws output::OutputError
+/// @throws process::FileError
 void write_all(const process::Descriptor& file, const std::filesystem::path& path,
                std::string_view text);
 

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "host_sim/long_work/record.hpp"
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 
 namespace sonoglide::long_work {
 namespace {
@@ -67,7 +67,7 @@ RowsWriter::RowsWriter(const std::filesystem::path& folder, const ShardHeader& h
   file_ =
       process::Descriptor(open(staged_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
   if (file_.number() < 0) {
-    output::fail(staged_);
+    process::fail(staged_);
   }
   put(header_text(header));
 }
@@ -87,13 +87,13 @@ void RowsWriter::publish() {
   put(end_text(records_, sum_));
   flush();
   if (fsync(file_.number()) != 0) {
-    output::fail(staged_);
+    process::fail(staged_);
   }
   file_.close();
   std::error_code error;
   std::filesystem::rename(staged_, target_, error);
   if (error) {
-    output::fail(target_, error);
+    process::fail(target_, error);
   }
   published_ = true;
   // The name too survives a power failure; a file system that cannot promise it says so in vain.

@@ -51,18 +51,18 @@ class RowsReader {
 class RowsWriter {
  public:
   /// @param copy  names the copy of the shard: no two that live have the same
-  /// @throws output::OutputError
+  /// @throws process::FileError
   RowsWriter(const std::filesystem::path& folder, const ShardHeader& header,
              const std::string& copy);
   ~RowsWriter();
   RowsWriter(const RowsWriter&) = delete;
   RowsWriter& operator=(const RowsWriter&) = delete;
 
-  /// The next record. @throws output::OutputError
+  /// The next record. @throws process::FileError
   void add(const std::string& record);
 
   /// All are there: the file is complete, on the disk and under its name.
-  /// @throws output::OutputError
+  /// @throws process::FileError
   void publish();
 
  private:

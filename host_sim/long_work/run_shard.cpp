@@ -15,7 +15,7 @@
 
 #include "host_sim/long_work/record.hpp"
 #include "host_sim/long_work/rows_file.hpp"
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 
@@ -74,7 +74,7 @@ std::vector<fs::path> journals_of(const fs::path& folder, const Shard& shard) {
     }
   }
   if (error) {
-    output::fail(folder, error);
+    process::fail(folder, error);
   }
   std::sort(journals.begin(), journals.end());
   return journals;
@@ -129,7 +129,7 @@ void create(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    output::fail(folder, error);
+    process::fail(folder, error);
   }
 }
 
@@ -218,9 +218,9 @@ class ShardRun {
       }
       return true;
     } catch (const NoRows& error) {
-      output::fail(rows_file(), fmt::format("{}; allowed: another folder, or that file out of the "
-                                            "way",
-                                            error.what()));
+      process::fail(rows_file(), fmt::format("{}; allowed: another folder, or that file out of the "
+                                             "way",
+                                             error.what()));
     } catch (const DamagedRows&) {
       return false;
     }
@@ -244,7 +244,7 @@ class ShardRun {
       }
       publish(summary);
       return true;
-    } catch (const output::OutputError&) {
+    } catch (const process::FileError&) {
       if (published()) {
         return false;
       }

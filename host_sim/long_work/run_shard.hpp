@@ -33,7 +33,7 @@ class ShardJournal {
  public:
   /// @param folder  exists
   /// @param take    as of Journal
-  /// @throws ForeignJournal, output::OutputError
+  /// @throws ForeignJournal, process::FileError
   ShardJournal(const std::filesystem::path& folder, const ShardHeader& header,
                const Journal::Take& take);
 
@@ -68,7 +68,7 @@ using CheckPoints = std::function<void(const PointRange& points, Pace& pace)>;
 ///
 /// @throws what check throws; nothing was written
 /// @throws ForeignJournal  the folder holds a shard of other work
-/// @throws output::OutputError
+/// @throws process::FileError
 ShardSummary run_shard(const ShardHeader& header, const CheckPoints& check,
                        const Computation& computation, const std::filesystem::path& folder,
                        const Progress& progress);

@@ -1,19 +1,8 @@
 #include "host_sim/loop/engine.hpp"
 
-#include <cmath>
-
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::loop {
-namespace {
-
-double natural_frequency_Hz(double stiffness_N_per_m, double mass_kg) {
-  return std::sqrt(stiffness_N_per_m / mass_kg) / numeric::two_pi;
-}
-
-}  // namespace
-
 RunResult begun_result(const std::optional<configure::ControlDesign>& design) {
   RunResult result;
   if (design) {
@@ -29,8 +18,7 @@ Engine::Engine(const scene::Scene& scene, bool has_plant, ControlPort* controlle
       watch_(watch),
       clock_(scene),
       friction_N_(scene.friction.largest_limit_N()),
-      constant_natural_Hz_(
-          natural_frequency_Hz(scene.plant.stiffness_N_per_m, scene.plant.mass_kg)) {
+      constant_natural_Hz_(scene.plant.natural_Hz()) {
   if (has_plant) {
     plant_.emplace(scene, clock_, watch, result);
   }
@@ -114,7 +102,7 @@ double Engine::natural_Hz(double time_s) const {
   const scene::TimedProfile& profile = scene_.plant.stiffness_profile;
   return profile.empty()
              ? constant_natural_Hz_
-             : natural_frequency_Hz(scene::value_at(profile, time_s), scene_.plant.mass_kg);
+             : scene::natural_Hz(scene::value_at(profile, time_s), scene_.plant.mass_kg);
 }
 
 void Engine::finish() {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant_run.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/watch.hpp"

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/loop/plant/make_plant_port.hpp"
 
 namespace sonoglide::loop {

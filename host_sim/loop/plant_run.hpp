@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
 #include "host_sim/loop/force_sampler.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant/course.hpp"
 #include "host_sim/loop/plant/energy.hpp"
 #include "host_sim/loop/plant/period_drive.hpp"

@@ -13,7 +13,7 @@
 #include "host_sim/loop/friction_belief.hpp"
 #include "host_sim/loop/plant/energy.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
-#include "host_sim/loop/steady_orbit.hpp"
+#include "host_sim/loop/plant/steady_orbit.hpp"
 
 namespace sonoglide::loop {
 

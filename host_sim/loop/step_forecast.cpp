@@ -6,7 +6,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant/make_plant_port.hpp"
 #include "host_sim/loop/plant/sliding_profile.hpp"
 #include "host_sim/loop/plant/step_meter.hpp"
@@ -30,7 +30,7 @@ Stretch half_period(const scene::Scene& scene, int n, StepMeter& meter) {
   half.meter = &meter;
   if (scene.drive) {
     const scene::Drive& drive = *scene.drive;
-    half.drive_rate_rad_per_s = numeric::two_pi * drive.frequency_Hz;
+    half.drive_rate_rad_per_s = drive.rate_rad_per_s();
     half.drive_phase_rad = n % 2 == 0 ? 0.0 : 0.5 * numeric::two_pi;
     half.drive_amplitude_N = std::max(scene.drive_force_N(), scene.max_drive_force_N());
     half.drive_waveform = drive.waveform;

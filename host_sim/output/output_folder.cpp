@@ -7,6 +7,7 @@
 
 #include "host_sim/output/written_files.hpp"
 #include "host_sim/process/ending.hpp"
+#include "host_sim/process/file_error.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -21,7 +22,7 @@ constexpr int kMostTries = 100;
 /// Absolute, links and ".." resolved as far as the path exists, without a trailing separator.
 fs::path normal(const fs::path& path) {
   if (path.empty()) {
-    throw OutputError("the output folder has an empty name");
+    throw process::FileError("the output folder has an empty name");
   }
   std::error_code error;
   fs::path result;
@@ -30,7 +31,7 @@ fs::path normal(const fs::path& path) {
     result = fs::weakly_canonical(fs::absolute(path, error), error);
   } while (error == std::errc::no_such_file_or_directory && ++tries < kMostTries);
   if (error) {
-    fail(path, error);
+    process::fail(path, error);
   }
   return result.has_filename() ? result : result.parent_path();
 }
@@ -45,16 +46,16 @@ fs::path nearest_folder(const fs::path& path) {
       return candidate;
     }
     if (fs::exists(status)) {
-      fail(candidate, "is a file, not a folder");
+      process::fail(candidate, "is a file, not a folder");
     }
     if (status.type() == fs::file_type::none) {
-      fail(candidate, error);
+      process::fail(candidate, error);
     }
     if (fs::is_symlink(fs::symlink_status(candidate, error))) {
-      fail(candidate, "is a symbolic link to nothing");
+      process::fail(candidate, "is a symbolic link to nothing");
     }
     if (candidate == candidate.parent_path()) {
-      fail(path, "no parent folder exists");
+      process::fail(path, "no parent folder exists");
     }
     candidate = candidate.parent_path();
   }
@@ -66,7 +67,7 @@ std::vector<fs::path> create_parents(const fs::path& folder, int tries = 1) {
   std::error_code unknown;
   for (fs::path path = folder; !fs::exists(path, unknown); path = path.parent_path()) {
     if (unknown) {
-      fail(path, unknown);
+      process::fail(path, unknown);
     }
     missing.insert(missing.begin(), path);
   }
@@ -84,7 +85,7 @@ std::vector<fs::path> create_parents(const fs::path& folder, int tries = 1) {
       if (went && tries < kMostTries) {
         return create_parents(folder, tries + 1);
       }
-      fail(folder, error);
+      process::fail(folder, error);
     }
   }
   return missing;
@@ -140,7 +141,7 @@ OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string
       staging_.emplace(parent);
     } catch (const process::ScratchError& error) {
       if (tries == kMostTries) {
-        fail(target_, "cannot be written: " + error.reason());
+        process::fail(target_, "cannot be written: " + error.reason());
       }
       parent = nearest_folder(target_);
     }
@@ -148,7 +149,7 @@ OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string
   std::error_code error;
   if (!fs::create_directory(staging_->path() / kNewFiles, error) ||
       !fs::create_directory(staging_->path() / kOldFiles, error)) {
-    fail(target_, error);
+    process::fail(target_, error);
   }
 }
 
@@ -193,9 +194,10 @@ void OutputFolder::require_listed(const std::string& name) const {
   std::error_code absent;
   const fs::file_status status = fs::symlink_status(place, absent);
   if (fs::exists(status) && !fs::is_directory(status) && !WrittenFiles(target_).has(name)) {
-    fail(place,
-         "was not written by an earlier run, or was changed since; allowed: another folder, or "
-         "that file out of the way");
+    process::fail(
+        place,
+        "was not written by an earlier run, or was changed since; allowed: another folder, or "
+        "that file out of the way");
   }
 }
 
@@ -256,7 +258,7 @@ bool OutputFolder::place_new_folder() {
       std::error_code ignored;
       fs::remove(*path, ignored);
     }
-    fail(target_, error);
+    process::fail(target_, error);
   }
   return true;
 }
@@ -272,7 +274,7 @@ void OutputFolder::place_list(Moves& moves, bool is_first) const {
     fs::rename(from, to, error);
   }
   if (error) {
-    fail(to, error);
+    process::fail(to, error);
   }
 }
 
@@ -292,7 +294,7 @@ bool OutputFolder::replace_files() {
     require_listed(name);
     if (const std::error_code error =
             clear(moves, target_ / name, staging_->path() / kOldFiles / name)) {
-      fail(target_ / name, error);
+      process::fail(target_ / name, error);
     }
   };
   for (const std::string& name : withdrawn_) {
@@ -301,7 +303,7 @@ bool OutputFolder::replace_files() {
   for (const auto& [name, file] : files_) {
     clear_place(name);
     if (const std::error_code error = moves.move(new_file(name), target_ / name)) {
-      fail(target_ / name, error);
+      process::fail(target_ / name, error);
     }
   }
   moves.keep();

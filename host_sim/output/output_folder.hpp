@@ -28,7 +28,7 @@ struct StudyReport {
 };
 
 /// Writes the files, all or none, and takes away an earlier one of the name of one that is empty.
-/// @throws OutputError
+/// @throws process::FileError
 void write(const std::filesystem::path& folder, const StudyReport& report);
 
 // A file that is written piece by piece.
@@ -58,10 +58,10 @@ class StagedFile : public std::ostream {
  public:
   /// @param file    is not there yet
   /// @param target  what errors name: where it will stand
-  /// @throws OutputError  it cannot be created
+  /// @throws process::FileError  it cannot be created
   StagedFile(const std::filesystem::path& file, const std::filesystem::path& target);
 
-  /// Everything is handed to the system; may be called again. @throws OutputError
+  /// Everything is handed to the system; may be called again. @throws process::FileError
   void close() { buffer_.close(); }
 
  private:
@@ -79,7 +79,7 @@ class StagedFile : public std::ostream {
 class OutputFolder {
  public:
   /// @param names  of files that will be written or withdrawn, to be told of early that they cannot
-  /// @throws OutputError if nothing can be written there; nothing has been changed then.
+  /// @throws process::FileError if nothing can be written there; nothing has been changed then.
   explicit OutputFolder(const std::filesystem::path& target,
                         const std::vector<std::string>& names = {});
   ~OutputFolder();
@@ -87,7 +87,7 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   /// Stages a whole file. @param name  a plain file name, used once.
-  /// @throws OutputError if it cannot be written or there is another's file of that name,
+  /// @throws process::FileError if it cannot be written or there is another's file of that name,
   ///         std::invalid_argument for any other name.
   void write(const std::string& name, std::string_view content);
 
@@ -103,7 +103,7 @@ class OutputFolder {
   /// file of the same name is replaced. The list of what this program wrote there goes with them. Of
   /// several programs that do so at once one is the last, in every file.
   /// @param then  what belongs to it: no signal ends the program between
-  /// @throws OutputError if a file could not be written or moved; the target is then as before.
+  /// @throws process::FileError if a file could not be written or moved; the target is then as before.
   void commit(const std::function<void()>& then = {});
 
   const std::filesystem::path& target() const { return target_; }
@@ -130,7 +130,7 @@ class OutputFolder {
 };
 
 /// Creates a folder once it is known that files of these names can be written to it.
-/// @throws OutputError
+/// @throws process::FileError
 void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names);
 
 }  // namespace sonoglide::output

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -22,7 +22,7 @@ FileBuffer::FileBuffer(const std::filesystem::path& file, std::filesystem::path 
   constexpr mode_t mode = 0666;
   file_ = process::Descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file_.number() < 0) {
-    fail(target_, std::generic_category().message(errno));
+    process::fail(target_, std::generic_category().message(errno));
   }
   setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
@@ -62,7 +62,8 @@ void FileBuffer::hand_over(const char* text, std::streamsize size) {
   while (size > 0) {
     const ssize_t count = ::write(file_.number(), text, static_cast<std::size_t>(size));
     if (count < 0 && errno != EINTR) {
-      fail(target_, "could not be written in full: " + std::generic_category().message(errno));
+      process::fail(target_,
+                    "could not be written in full: " + std::generic_category().message(errno));
     }
     const ssize_t written = std::max<ssize_t>(0, count);
     text += written;

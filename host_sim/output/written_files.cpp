@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "host_sim/process/checksum.hpp"
+#include "host_sim/process/file_error.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -44,9 +45,9 @@ WrittenFiles::WrittenFiles(const std::filesystem::path& folder) : folder_(folder
     list.read(line.data(), static_cast<std::streamsize>(line.size()));
   }
   if (line != std::string(heading) + '\n') {
-    fail(place,
-         "is not a list of files that this program wrote; allowed: another "
-         "folder, or that file out of the way");
+    process::fail(place,
+                  "is not a list of files that this program wrote; allowed: another "
+                  "folder, or that file out of the way");
   }
   while (std::getline(list, line)) {
     std::istringstream words(line);
@@ -103,7 +104,7 @@ WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file
     content.bytes += count;
   }
   if (!stream.eof()) {
-    fail(file, "cannot be read: " + std::generic_category().message(errno));
+    process::fail(file, "cannot be read: " + std::generic_category().message(errno));
   }
   content.checksum = sum.value();
   return content;

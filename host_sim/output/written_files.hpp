@@ -1,17 +1,13 @@
-/// Which files of a folder this program has written, and the error where one cannot be.
+/// Which files of a folder this program has written.
 #pragma once
 
-#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::output {
 
@@ -44,25 +40,6 @@ class ListLock {
   process::Descriptor next_;
 };
 
-/// The file system refused, or holds what is somebody else's; the message names the path and the
-/// reason.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// @throws OutputError
-[[noreturn]] inline void fail(const std::filesystem::path& path, const std::string& reason) {
-  throw OutputError(process::printable(path.string()) + ": " + reason);
-}
-[[noreturn]] inline void fail(const std::filesystem::path& path, const std::error_code& error) {
-  fail(path, error.message());
-}
-/// The reason is that of the last system call.
-[[noreturn]] inline void fail(const std::filesystem::path& path) {
-  fail(path, std::error_code(errno, std::generic_category()));
-}
-
 /// The list of them, kept in the folder itself, each with its size and checksum: a file that
 /// somebody else has made or changed since is not on it. A file that is about to be replaced is on
 /// it with its old content and its new one, so that the list is true at every moment of the move.
@@ -72,14 +49,14 @@ class WrittenFiles {
   static constexpr const char* file_name = ".sonoglide";
 
   /// The list of a folder, empty where it has none.
-  /// @throws OutputError  a file of that name is no such list
+  /// @throws process::FileError  a file of that name is no such list
   explicit WrittenFiles(const std::filesystem::path& folder);
 
   /// Whether the file that stands there under this name is as this program has left it.
   bool has(const std::string& name) const;
 
   /// @param file  with the content that will stand in the folder under this name
-  /// @throws OutputError  it cannot be read
+  /// @throws process::FileError  it cannot be read
   void add(const std::string& name, const std::filesystem::path& file);
 
   /// As it is kept.

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/loop/failure.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
@@ -49,7 +49,7 @@ void translate(std::exception_ptr thrown) {
     PyErr_SetString(PyExc_ValueError, (error.key() + ": " + error.what()).c_str());
   } catch (const loop::ComputationError& error) {
     PyErr_SetString(computation_error, error.what());
-  } catch (const output::OutputError& error) {
+  } catch (const process::FileError& error) {
     PyErr_SetString(PyExc_OSError, error.what());
   } catch (const process::ProcessError& error) {
     PyErr_SetString(PyExc_OSError, error.what());

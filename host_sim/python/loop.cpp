@@ -13,8 +13,8 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_run.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/loop/stepped.hpp"
 #include "host_sim/python/answer.hpp"

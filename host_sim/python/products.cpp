@@ -15,7 +15,6 @@
 #include "host_sim/fmi/archive/make_fmu.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
-#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::python {
 namespace {

@@ -13,10 +13,10 @@
 #include "host_sim/python/answer.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
+#include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/report/words.hpp"
-#include "host_sim/scene/names.hpp"
 
 namespace sonoglide::python {
 namespace {
@@ -147,8 +147,7 @@ py::dict trace_of(const Recorded& recorded, const std::vector<scene::Channel>& c
   py::dict columns;
   columns["time_s"] = column(recorded.trace.time_s, owner);
   for (const scene::Channel channel : channels) {
-    columns[py::str(scene::name_of(scene::channels, channel))] =
-        trace_column(recorded.trace, channel, owner);
+    columns[py::str(report::name_of(channel))] = trace_column(recorded.trace, channel, owner);
   }
   return columns;
 }

@@ -94,12 +94,16 @@ void PeriodsCsv::take(const loop::Period& period) {
   file_.finish_row();
 }
 
+std::string_view name_of(scene::Channel channel) {
+  return scene::name_of(scene::channels, channel);
+}
+
 TraceCsv::TraceCsv(CsvFile file, std::vector<scene::Channel> channels)
     : file_(std::move(file)), channels_(std::move(channels)) {
   file_.row().append(std::string_view("time_s"));
   for (const scene::Channel channel : channels_) {
     file_.row().push_back(',');
-    file_.row().append(scene::name_of(scene::channels, channel));
+    file_.row().append(name_of(channel));
   }
   file_.finish_row();
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <ostream>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -57,6 +58,9 @@ class PeriodsCsv final : public loop::PeriodSink {
   RepeatingNumber drive_amplitude_;
   RepeatingNumber sliding_velocity_m_per_s_;
 };
+
+/// Of its column.
+std::string_view name_of(scene::Channel channel);
 
 /// trace.csv: one column for each recorded channel after that of time.
 class TraceCsv final : public loop::SampleSink {

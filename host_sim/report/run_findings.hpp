@@ -10,7 +10,7 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/report/extremes_curve.hpp"
 #include "host_sim/report/step_metrics.hpp"

@@ -33,14 +33,14 @@ std::string summary_text(const configure::Experiment& experiment, const loop::Ru
 class RunReport {
  public:
   /// @param experiment  outlives this
-  /// @throws OutputError  nothing can be written there; found out before anything is computed
+  /// @throws process::FileError  nothing can be written there; found out before anything is computed
   RunReport(const std::filesystem::path& out, const configure::Experiment& experiment);
 
   /// Watches the run: the tables are written as it goes. This outlives the run.
   void join(loop::Watch& watch);
 
   /// Writes the rest and puts everything in place; to be called once, after the run.
-  /// @throws OutputError  the file system refused; nothing has been changed then
+  /// @throws process::FileError  the file system refused; nothing has been changed then
   void finish(const loop::RunResult& result);
 
   const RunFindings& findings() const { return findings_; }

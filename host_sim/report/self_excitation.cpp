@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
+#include "host_sim/loop/steady/self_excitation.hpp"
 #include "host_sim/report/step_metrics.hpp"
-#include "host_sim/steady/requirement.hpp"
-#include "host_sim/steady/self_excitation.hpp"
 
 namespace sonoglide::report {
 namespace {

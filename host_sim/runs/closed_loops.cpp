@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/runs/lane_scene.hpp"

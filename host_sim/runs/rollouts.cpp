@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/stepped.hpp"
 #include "host_sim/runs/closed_loops.hpp"

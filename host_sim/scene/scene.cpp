@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/numeric/turn.hpp"
+
 namespace sonoglide::scene {
 namespace {
 
@@ -18,8 +20,20 @@ TimedProfile::const_iterator row_after(const TimedProfile& profile, double time_
 
 }  // namespace
 
+double natural_Hz(double stiffness_N_per_m, double mass_kg) {
+  return std::sqrt(stiffness_N_per_m / mass_kg) / numeric::two_pi;
+}
+
 double Plant::natural_rad_per_s() const {
   return std::sqrt(stiffness_N_per_m / mass_kg);
+}
+
+double Plant::natural_Hz() const {
+  return scene::natural_Hz(stiffness_N_per_m, mass_kg);
+}
+
+double Plant::stiffest_N_per_m() const {
+  return stiffness_profile.empty() ? stiffness_N_per_m : largest_value(stiffness_profile);
 }
 
 double Sliding::fastest_m_per_s() const {
@@ -54,6 +68,14 @@ double Friction::largest_limit_N() const {
     most.normal_force_N = largest_value(normal_force_profile_N);
   }
   return most.limit_N();
+}
+
+double Drive::highest_frequency_Hz() const {
+  return frequency_profile.empty() ? frequency_Hz : largest_value(frequency_profile);
+}
+
+double Drive::rate_rad_per_s() const {
+  return numeric::two_pi * frequency_Hz;
 }
 
 double Drive::nearest_frequency_Hz(double asked_Hz) const {

@@ -39,6 +39,9 @@ double largest_value(const TimedProfile& profile);
 /// between two rows; 0 outside them, and where nothing changes.
 double relative_slope_per_s(const TimedProfile& profile, double time_s);
 
+/// √(Ks/m)/2π, without damping; 0 without a spring.
+double natural_Hz(double stiffness_N_per_m, double mass_kg);
+
 /// Where the profile holds anything, the stiffness is its value at 0 s.
 struct Plant {
   double mass_kg = 0.0;
@@ -50,6 +53,9 @@ struct Plant {
 
   /// √(Ks/m), without damping; 0 without a spring.
   double natural_rad_per_s() const;
+  double natural_Hz() const;
+  /// Ks, or the largest value of its profile.
+  double stiffest_N_per_m() const;
 };
 
 /// Where a profile holds anything, the member of Contact that it stands for is its value at 0 s.
@@ -132,6 +138,10 @@ struct Drive {
   bool is_ramped() const {
     return (interpolation == Interpolation::linear && codes_per_period == 1) || bias_limit_N > 0.0;
   }
+  /// Of its profile the largest.
+  double highest_frequency_Hz() const;
+  /// 2π f, f the frequency.
+  double rate_rad_per_s() const;
   /// The nearest multiple of the resolution, at least one; without a resolution the frequency itself.
   double nearest_frequency_Hz(double asked_Hz) const;
 };

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -10,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
 #include "host_sim/scene/cores/solver_choice.hpp"
 #include "host_sim/scene/names.hpp"
@@ -87,19 +85,12 @@ void settle_waveform(const TableCursor& cursor, scene::Scene& scene) {
 constexpr double most_fixed_steps = 1e11;
 constexpr double most_recorded_rows = 1e9;
 
-double largest(double value, const scene::TimedProfile& in_its_place) {
-  return in_its_place.empty() ? value : scene::largest_value(in_its_place);
-}
-
 /// Bounds what a mistyped unit can cost.
 void check_work(const TableCursor& cursor, std::string_view key, const scene::Scene& so_far) {
   const scene::Run& run = so_far.run;
-  const scene::Plant& plant = so_far.plant;
-  const double drive_Hz =
-      so_far.drive ? largest(so_far.drive->frequency_Hz, so_far.drive->frequency_profile) : 0.0;
+  const double drive_Hz = so_far.drive ? so_far.drive->highest_frequency_Hz() : 0.0;
   const double natural_Hz =
-      std::sqrt(largest(plant.stiffness_N_per_m, plant.stiffness_profile) / plant.mass_kg) /
-      numeric::two_pi;
+      scene::natural_Hz(so_far.plant.stiffest_N_per_m(), so_far.plant.mass_kg);
   // The conversion of periods to seconds and back may round up.
   constexpr double rounding = 1e-12;
   const auto most = [&](double most_s) {

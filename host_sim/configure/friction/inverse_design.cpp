@@ -9,7 +9,6 @@
 
 #include "firmware/friction/inverse_grid.hpp"
 #include "firmware/numeric/float_elementary.hpp"
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/friction/least_vibration.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 
@@ -153,7 +152,7 @@ class Survey {
  public:
   Survey(const scene::Scene& scene, const NominalPlant& plant, InverseDesign& design)
       : contact_(nominal_contact(scene, plant)),
-        omega_(numeric::two_pi * scene.drive->frequency_Hz),
+        omega_(scene.drive->rate_rad_per_s()),
         fastest_m_per_s_(scene.sliding.fastest_m_per_s()),
         strongest_m_per_s_(strongest_m_per_s(scene, plant)),
         over_force_(design.over_force),
@@ -228,8 +227,8 @@ bool is_tabulated(const scene::Scene& scene) {
 double required_vibration_m_per_s(const scene::Scene& scene, const NominalPlant& plant,
                                   double friction_ratio) {
   const scene::Friction contact = nominal_contact(scene, plant);
-  return LeastVibration(contact, numeric::two_pi * scene.drive->frequency_Hz,
-                        scene.sliding.fastest_m_per_s(), strongest_m_per_s(scene, plant))
+  return LeastVibration(contact, scene.drive->rate_rad_per_s(), scene.sliding.fastest_m_per_s(),
+                        strongest_m_per_s(scene, plant))
       .vibration_m_per_s(friction_ratio);
 }
 

@@ -18,10 +18,6 @@
 namespace sonoglide::configure {
 namespace {
 
-double start_rate_rad_per_s(const scene::Scene& scene) {
-  return numeric::two_pi * scene.drive->frequency_Hz;
-}
-
 double full_force_N(const scene::Scene& scene, const NominalPlant& plant) {
   return scene.max_drive_force_N() * plant.force_factor;
 }
@@ -53,7 +49,7 @@ TargetVelocities target_velocities(const scene::Scene& scene, const NominalPlant
   const double fastest_m_per_s = scene.sliding.fastest_m_per_s();
   const VibrationMap map{scene::friction_map(scene.friction.law), most_m_per_s,
                          plant.contact_stiffness_N_per_m * most_m_per_s /
-                             (start_rate_rad_per_s(scene) * plant.friction_N)};
+                             (scene.drive->rate_rad_per_s() * plant.friction_N)};
   const bool tabulated = is_tabulated(scene);
   TargetVelocities velocities;
   for (const double target : plant.target_ratios(*scene.controller)) {
@@ -152,7 +148,7 @@ void design_current(const scene::Scene& scene, const NominalPlant& plant, double
   design.loss_tangent = transducer.loss_tangent;
   design.motional =
       plant.force_factor * transducer.force_factor_N_per_V * full_scale_m_per_s / limit_A;
-  const double clamped_S = start_rate_rad_per_s(scene) * transducer.clamped_capacitance_F;
+  const double clamped_S = scene.drive->rate_rad_per_s() * transducer.clamped_capacitance_F;
   constexpr double smallest = 1e-9;
   design.capacitive = std::max(smallest, clamped_S * drive.max_voltage_amplitude_V / limit_A);
   const double held_by_V = least_m_per_s * plant.damping_N_s_per_m /

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host_sim/fmi/resources.hpp"
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::fmi {
@@ -35,7 +35,7 @@ std::string content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string content((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file) {
-    output::fail(path, "cannot be read");
+    process::fail(path, "cannot be read");
   }
   return content;
 }
@@ -126,7 +126,7 @@ fs::path folder_of_program() {
 Parts find_parts(const fs::path& folder) {
   Parts parts{folder / "fmu.so", folder / "fmu.dll"};
   if (!fs::exists(parts.engine)) {
-    output::fail(parts.engine, "is missing; every FMU holds it, and it is built with the program");
+    process::fail(parts.engine, "is missing; every FMU holds it, and it is built with the program");
   }
   if (!fs::exists(*parts.windows_engine)) {
     parts.windows_engine.reset();

@@ -46,13 +46,13 @@ struct Parts {
 /// Where they stand for the program: `lib/sonoglide` beside its folder.
 std::filesystem::path folder_of_program();
 
-/// @throws output::OutputError  the engine for this machine is not in the folder
+/// @throws process::FileError  the engine for this machine is not in the folder
 Parts find_parts(const std::filesystem::path& folder);
 
 /// The content of the archive, the same bytes for one scene each time.
 /// @param scene  usable, see require_usable()
 /// @param tool   that makes it, with its version
-/// @throws output::OutputError
+/// @throws process::FileError
 std::string make_fmu(const scene::Scene& scene, loop::Kind kind, Version version,
                      const Parts& parts, const std::string& tool);
 

@@ -70,7 +70,7 @@ ChangingPlant::ChangingPlant(const scene::Scene& scene)
       scales_(configure::plant_scales(scene)),
       largest_limit_N_(scene.friction.largest_limit_N()),
       spring_(scene),
-      drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
+      drive_rate_rad_per_s_(scene.drive ? scene.drive->rate_rad_per_s() : 0.0),
       held_(scene) {}
 
 void ChangingPlant::save(SnapshotWriter& state) const {

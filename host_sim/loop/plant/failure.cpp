@@ -1,4 +1,4 @@
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 
@@ -32,13 +32,8 @@ struct Rates {
   double load = 0.0;    ///< of the decay of a load's velocity by its damper
 };
 
-double stiffest_N_per_m(const scene::Plant& plant) {
-  return plant.stiffness_profile.empty() ? plant.stiffness_N_per_m
-                                         : scene::largest_value(plant.stiffness_profile);
-}
-
 Rates rates_in(const scene::Scene& scene, double time_s) {
-  const double stiffness_N_per_m = stiffest_N_per_m(scene.plant);
+  const double stiffness_N_per_m = scene.plant.stiffest_N_per_m();
   const double mass_kg = scene.plant.mass_kg;
   Rates rates;
   rates.mode = time_s * std::sqrt(stiffness_N_per_m / mass_kg);

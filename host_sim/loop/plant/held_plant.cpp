@@ -26,7 +26,7 @@ scene::Scene held(scene::Scene scene) {
 
 HeldPlant::HeldPlant(const scene::Scene& scene)
     : scene_(held(scene)),
-      drive_rate_rad_per_s_(scene.drive ? numeric::two_pi * scene.drive->frequency_Hz : 0.0),
+      drive_rate_rad_per_s_(scene.drive ? scene.drive->rate_rad_per_s() : 0.0),
       plant_(make_plant_port(scene_)) {}
 
 void HeldPlant::hold(const Held& wanted, const Carried& from) {

@@ -35,7 +35,7 @@ inline std::vector<Stretch> period_of(const scene::Scene& scene) {
   const scene::Drive& drive = *scene.drive;
   Stretch whole;
   whole.duration_s = 1.0 / drive.frequency_Hz;
-  whole.drive_rate_rad_per_s = numeric::two_pi * drive.frequency_Hz;
+  whole.drive_rate_rad_per_s = drive.rate_rad_per_s();
   whole.drive_amplitude_N = scene.drive_force_N();
   whole.sliding_velocity_m_per_s = scene.sliding.profile.front().velocity_m_per_s;
   whole.drive_waveform = drive.waveform;
@@ -80,7 +80,7 @@ class PeriodMap {
   PeriodMap(const scene::Scene& scene, std::uint64_t most_steps)
       : most_steps_(most_steps),
         plant_(make_plant_port(scene)),
-        rate_rad_per_s_(numeric::two_pi * scene.drive->frequency_Hz),
+        rate_rad_per_s_(scene.drive->rate_rad_per_s()),
         length_m_(std::max(configure::plant_scales(scene).length_m,
                            sliding_m_per_s(scene) / rate_rad_per_s_)),
         period_(period_of(scene)),

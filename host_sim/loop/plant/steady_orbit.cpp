@@ -1,4 +1,4 @@
-#include "host_sim/loop/steady_orbit.hpp"
+#include "host_sim/loop/plant/steady_orbit.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/failure.hpp"
-#include "host_sim/loop/period_map.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "host_sim/loop/plant/period_map.hpp"
 #include "host_sim/scene/solver_facts.hpp"
 
 namespace sonoglide::loop {
@@ -72,7 +72,7 @@ std::optional<Matrix> derivative(PeriodMap& map, const Vector& at, double differ
 /// Displacement and velocity of the steady vibration without a contact; at rest where that has
 /// none.
 Vector vibration_without_contact(const PeriodMap& map, const scene::Scene& scene, double load) {
-  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double omega = scene.drive->rate_rad_per_s();
   const std::complex<double> stiffness = configure::dynamic_stiffness(scene.plant, omega);
   if (!(std::abs(stiffness) > 0.0)) {
     return map.loaded(0.0, 0.0, load);

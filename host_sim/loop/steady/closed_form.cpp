@@ -1,25 +1,20 @@
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/friction/mean_friction.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/steady/root.hpp"
+#include "host_sim/loop/steady/root.hpp"
 
 namespace sonoglide::steady {
 
-double carrier_rad_per_s(const scene::Scene& scene) {
-  return numeric::two_pi * scene.drive->frequency_Hz;
-}
-
 double closed_form_ratio(const scene::Scene& scene, double sliding_m_per_s,
                          double vibration_m_per_s) {
-  return configure::mean_friction_ratio(scene.friction, carrier_rad_per_s(scene), sliding_m_per_s,
-                                        vibration_m_per_s);
+  return configure::mean_friction_ratio(scene.friction, scene.drive->rate_rad_per_s(),
+                                        sliding_m_per_s, vibration_m_per_s);
 }
 
 /// The first step of a scan over the vibration that leads below the ratio, then a root in it; where
@@ -29,7 +24,7 @@ RequiredVibration closed_form_vibration(const scene::Scene& scene, double slidin
   constexpr int steps = 120;
   constexpr double most = 1e6;
   const auto [least_m_per_s, opening_m_per_s] =
-      configure::vibration_range(scene.friction, carrier_rad_per_s(scene), sliding_m_per_s);
+      configure::vibration_range(scene.friction, scene.drive->rate_rad_per_s(), sliding_m_per_s);
   const double most_m_per_s = std::min(opening_m_per_s, most * sliding_m_per_s);
   const double span = std::log(most_m_per_s / least_m_per_s);
   const auto vibration_m_per_s = [&](double place) {
@@ -65,7 +60,7 @@ RequiredVibration closed_form_vibration(const scene::Scene& scene, double slidin
 }
 
 double force_N(const scene::Scene& scene, double vibration_m_per_s) {
-  const double omega = carrier_rad_per_s(scene);
+  const double omega = scene.drive->rate_rad_per_s();
   return configure::dynamic_stiffness_N_per_m(scene.plant, omega) * vibration_m_per_s / omega;
 }
 

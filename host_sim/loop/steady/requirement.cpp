@@ -1,4 +1,4 @@
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/failure.hpp"
-#include "host_sim/loop/steady_orbit.hpp"
-#include "host_sim/steady/root.hpp"
-#include "host_sim/steady/self_excitation.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "host_sim/loop/plant/steady_orbit.hpp"
+#include "host_sim/loop/steady/root.hpp"
+#include "host_sim/loop/steady/self_excitation.hpp"
 
 namespace sonoglide::steady {
 namespace {

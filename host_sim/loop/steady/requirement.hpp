@@ -53,8 +53,6 @@ SteadyMotion steady_motion(const scene::Scene& steady_scene);
 
 // Friction ratio under a prescribed sinusoidal vibration, by the closed form of the scene's law.
 
-double carrier_rad_per_s(const scene::Scene& scene);
-
 /// Mean friction over the undriven one, as firmware/friction has it for every law; of normal_coulomb
 /// while its contact stays closed.
 ///

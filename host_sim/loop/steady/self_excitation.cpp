@@ -1,4 +1,4 @@
-#include "host_sim/steady/self_excitation.hpp"
+#include "host_sim/loop/steady/self_excitation.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -7,10 +7,10 @@
 #include <complex>
 #include <cstddef>
 
-#include "host_sim/loop/failure.hpp"
-#include "host_sim/loop/steady_orbit.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "host_sim/loop/plant/steady_orbit.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 #include "host_sim/scene/friction_laws.hpp"
-#include "host_sim/steady/requirement.hpp"
 
 namespace sonoglide::steady {
 namespace {

@@ -1,11 +1,11 @@
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "host_sim/loop/plant/steady_orbit.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/loop/steady_orbit.hpp"
 #include "host_sim/loop/watch.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 

@@ -29,7 +29,7 @@ double vibration_m_per_s(const Scene& scene, double inertia_N_per_m, double omeg
 
 bool suits_event_gauss(const Scene& scene) {
   const Plant& plant = scene.plant;
-  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double omega = scene.drive->rate_rad_per_s();
   const double inertia_N_per_m = plant.mass_kg * omega * omega;
   if (plant.stiffness_N_per_m > 0.25 * inertia_N_per_m ||
       plant.damping_N_s_per_m > 0.1 * plant.mass_kg * omega) {

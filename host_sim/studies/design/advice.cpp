@@ -256,7 +256,7 @@ Advice amplifier(const DesignStudy& study, const steady::Requirement& point) {
           output::quantity(figures.apparent_power_VA, "VA"),
           output::quantity(figures.active_power_W, "W"), figures.power_factor,
           output::quantity(clamped_power_VA(scene, figures.voltage_peak_V), "VA"),
-          std::sqrt(coupling_square(scene)), output::quantity(series_resonance_Hz(scene), "Hz"),
+          std::sqrt(coupling_square(scene)), output::quantity(scene.plant.natural_Hz(), "Hz"),
           output::quantity(parallel_resonance_Hz(scene), "Hz"))};
 }
 

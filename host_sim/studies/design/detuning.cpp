@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/failure.hpp"
-#include "host_sim/steady/root.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "host_sim/loop/steady/root.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -15,7 +14,7 @@ constexpr int points_a_side = 30;
 constexpr double nearest = 0.011;
 
 double inertia_N_per_m(const scene::Scene& scene) {
-  const double omega = numeric::two_pi * scene.drive->frequency_Hz;
+  const double omega = scene.drive->rate_rad_per_s();
   return scene.plant.mass_kg * omega * omega;
 }
 

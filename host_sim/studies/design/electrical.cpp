@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "firmware/numeric/turn.hpp"
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -22,31 +21,26 @@ double coupling_square(const scene::Scene& scene) {
                                    : 1.0;
 }
 
-double series_resonance_Hz(const scene::Scene& scene) {
-  return scene.plant.natural_rad_per_s() / numeric::two_pi;
-}
-
 double parallel_resonance_Hz(const scene::Scene& scene) {
-  return std::sqrt((scene.plant.stiffness_N_per_m + stiffening_N_per_m(*scene.transducer)) /
-                   scene.plant.mass_kg) /
-         numeric::two_pi;
+  return scene::natural_Hz(scene.plant.stiffness_N_per_m + stiffening_N_per_m(*scene.transducer),
+                           scene.plant.mass_kg);
 }
 
 double clamped_power_VA(const scene::Scene& scene, double voltage_V) {
   return 0.5 * voltage_V * voltage_V *
-         std::abs(loop::clamped_admittance_S(*scene.transducer, steady::carrier_rad_per_s(scene)));
+         std::abs(loop::clamped_admittance_S(*scene.transducer, scene.drive->rate_rad_per_s()));
 }
 
 double matching_inductance_H(const scene::Scene& scene, const loop::ElectricalFigures& figures) {
   return figures.reactive_power_var < 0.0
              ? -figures.voltage_peak_V * figures.voltage_peak_V /
-                   (2.0 * steady::carrier_rad_per_s(scene) * figures.reactive_power_var)
+                   (2.0 * scene.drive->rate_rad_per_s() * figures.reactive_power_var)
              : steady::undefined;
 }
 
 ResonantSpring on_resonance(const scene::Scene& scene, const steady::Requirement& requirement) {
   scene::Scene resonant = scene;
-  const double omega = steady::carrier_rad_per_s(scene);
+  const double omega = scene.drive->rate_rad_per_s();
   resonant.plant.stiffness_N_per_m = scene.plant.mass_kg * omega * omega;
   return {resonant.plant.stiffness_N_per_m,
           steady::require_ratio(resonant, requirement.sliding_m_per_s, requirement.ratio)};

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/experiment.hpp"
@@ -166,8 +165,7 @@ bool is_better(const QuietDrive& a, const QuietDrive& b) {
 /// @param nominal  a trial at the scene's carrier
 std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_range) {
   const configure::NominalPlant plant = configure::nominal_plant(nominal);
-  const double natural =
-      plant.natural_rad_per_s() / (numeric::two_pi * nominal.drive->frequency_Hz);
+  const double natural = plant.natural_rad_per_s() / nominal.drive->rate_rad_per_s();
   if (nominal.transducer || nominal.drive->waveform != scene::Waveform::cosine ||
       !(natural < slow_mode) ||
       !(natural < configure::fastest_biased_mode(nominal.drive->delay_periods))) {
@@ -222,7 +220,7 @@ std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
   }
   const scene::Scene scene = fed_forward(stated);
   NaturalModeStudy study;
-  study.natural_Hz = scene.plant.natural_rad_per_s() / numeric::two_pi;
+  study.natural_Hz = scene.plant.natural_Hz();
   study.range = configure::assumed_frequency_range(scene);
   study.assumed_range = configure::natural_frequency_range(scene.tolerances) == 0.0;
   study.stiffness_range = 2.0 * study.range;

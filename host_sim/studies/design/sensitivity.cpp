@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "host_sim/loop/failure.hpp"
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 namespace sonoglide::design {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 
 namespace sonoglide::design {
 namespace {

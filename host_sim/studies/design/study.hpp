@@ -8,9 +8,9 @@
 
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/electrical.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
+#include "host_sim/loop/steady/self_excitation.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/steady/requirement.hpp"
-#include "host_sim/steady/self_excitation.hpp"
 #include "host_sim/studies/design/natural_mode.hpp"
 
 namespace sonoglide::design {
@@ -23,9 +23,7 @@ namespace sonoglide::design {
 /// between voltage and motion.
 double coupling_square(const scene::Scene& scene);
 
-/// √(Ks/m)/2π, where the transducer conducts most; 0 without a spring.
-double series_resonance_Hz(const scene::Scene& scene);
-/// fs √(1 + Cm/C0), where it conducts least.
+/// fs √(1 + Cm/C0), where the transducer conducts least; it conducts most at fs = Plant::natural_Hz().
 double parallel_resonance_Hz(const scene::Scene& scene);
 
 /// V̂²|Y|/2, Y the admittance while the mass is held: what the clamped capacitance takes alone.

@@ -58,7 +58,7 @@ ordered_json transducer_json(const DesignStudy& study) {
   const scene::Scene& scene = study.task.scene;
   ordered_json json = {
       {"coupling", std::sqrt(coupling_square(scene))},
-      {"series_resonance_Hz", series_resonance_Hz(scene)},
+      {"series_resonance_Hz", scene.plant.natural_Hz()},
       {"parallel_resonance_Hz", output::json_number(parallel_resonance_Hz(scene))}};
   if (study.resonant_spring) {
     const steady::Requirement& requirement = study.resonant_spring->requirement;

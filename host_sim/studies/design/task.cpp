@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
@@ -99,14 +98,6 @@ std::string allowed_speeds() {
                      fastest_m_per_s);
 }
 
-namespace {
-
-double resonance_Hz(const scene::Plant& plant) {
-  return plant.natural_rad_per_s() / numeric::two_pi;
-}
-
-}  // namespace
-
 Task make_task(const configure::Experiment& experiment, const std::vector<double>& ratios,
                const std::optional<SpeedRange>& speeds) {
   const scene::Scene& scene = experiment.plant;
@@ -121,7 +112,7 @@ Task make_task(const configure::Experiment& experiment, const std::vector<double
       scene.resonant()};
   if (task.at_resonance) {
     // The loop there is another one, of another carrier.
-    task.scene.drive->frequency_Hz = resonance_Hz(scene.plant);
+    task.scene.drive->frequency_Hz = scene.plant.natural_Hz();
     task.stated.drive->frequency_Hz = task.scene.drive->frequency_Hz;
     task.speed_floor_m_per_s = configure::design_control(task.stated).speed_floor_m_per_s();
   }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include "host_sim/loop/steady/requirement.hpp"
+#include "host_sim/loop/steady/self_excitation.hpp"
 #include "host_sim/output/number.hpp"
-#include "host_sim/steady/requirement.hpp"
-#include "host_sim/steady/self_excitation.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 
 namespace sonoglide::paper {

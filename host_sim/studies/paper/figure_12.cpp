@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "firmware/friction/transverse_vibration_ratio.hpp"
+#include "host_sim/loop/plant/steady_orbit.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/loop/steady_orbit.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/paper/contact_laws.hpp"
 #include "host_sim/studies/paper/experiments.hpp"

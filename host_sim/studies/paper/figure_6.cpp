@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/report/spectrum.hpp"
 #include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/figures.hpp"
@@ -32,10 +31,6 @@ struct Lines {
   report::Spectrum spectrum;
   std::vector<Peak> peaks;
 };
-
-double natural_Hz(const scene::Plant& plant) {
-  return plant.natural_rad_per_s() / numeric::two_pi;
-}
 
 std::string multiple(int factor, const char* symbol) {
   return std::abs(factor) == 1 ? symbol : fmt::format("{}{}", std::abs(factor), symbol);
@@ -81,7 +76,7 @@ std::vector<Peak> peaks_of(const report::Spectrum& spectrum, const scene::Scene&
     if (a[i] > a[i - 1] && a[i] >= a[i + 1] && a[i] > least_peak * highest) {
       peaks.push_back({spectrum.frequency_Hz[i], a[i],
                        name_of(spectrum.frequency_Hz[i], scene.drive->frequency_Hz,
-                               natural_Hz(scene.plant), resolution_Hz)});
+                               scene.plant.natural_Hz(), resolution_Hz)});
     }
   }
   std::sort(peaks.begin(), peaks.end(),
@@ -186,7 +181,7 @@ Figure figure_6() {
           "Table 1 at 384 N, velocity ratio 0.5, from rest: the first {} carrier periods, Hann "
           "window, {:.0f} Hz apart. f is the drive's frequency, fn = {:.2f} kHz that of the "
           "plant without a contact.",
-          periods, 1.0 / scene.run.duration_s, 1e-3 * natural_Hz(scene.plant)),
+          periods, 1.0 / scene.run.duration_s, 1e-3 * scene.plant.natural_Hz()),
       "sonoglide run table_1.toml --set run.duration_periods=2000 (the report shows the spectrum)",
       to_csv({{"frequency_Hz", velocity.spectrum.frequency_Hz},
               {"velocity_m_per_s", velocity.spectrum.amplitude},

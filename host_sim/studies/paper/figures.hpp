@@ -127,7 +127,7 @@ using Progress = std::function<void(double fraction)>;
 /// table_1.toml, table_2.toml and index.html; of one figure alone its own files, the two scenes and
 /// the page.
 /// @param figure  one of figure_list(); absent: all of them, and the balance
-/// @throws output::OutputError, process::ProcessError, loop::ComputationError; nothing is written
+/// @throws process::FileError, process::ProcessError, loop::ComputationError; nothing is written
 /// then
 void write_paper(const std::filesystem::path& out, std::optional<int> figure,
                  const Progress& progress);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/figures.hpp"
 #include "host_sim/studies/paper/runs.hpp"
@@ -374,7 +373,7 @@ Figure figure_10() {
 }
 
 Figure figure_11() {
-  const double omega = numeric::two_pi * table_1().drive->frequency_Hz;
+  const double omega = table_1().drive->rate_rad_per_s();
   const double resonant_N_per_m = table_1().plant.mass_kg * omega * omega;
   const Edit edit = [resonant_N_per_m](scene::Scene& scene, double part) {
     scene.plant.stiffness_N_per_m = part * resonant_N_per_m;

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/reader.hpp"
@@ -97,9 +96,9 @@ double period_s(const scene::Scene& scene) {
 }
 
 double dahl_number(const scene::Scene& scene) {
-  const double amplitude_m = scene.drive->force_amplitude_N /
-                             configure::dynamic_stiffness_N_per_m(
-                                 scene.plant, numeric::two_pi * scene.drive->frequency_Hz);
+  const double amplitude_m =
+      scene.drive->force_amplitude_N /
+      configure::dynamic_stiffness_N_per_m(scene.plant, scene.drive->rate_rad_per_s());
   return scene.friction.contact_stiffness_N_per_m * amplitude_m / scene.friction.limit_N();
 }
 

@@ -27,13 +27,13 @@ struct Outcome {
 /// @param program  name and version: a journal of another program is refused
 /// @param threads  0: one for each core
 /// @throws scene_file::SceneError  nothing was written
-/// @throws long_work::ForeignJournal, output::OutputError
+/// @throws long_work::ForeignJournal, process::FileError
 Outcome run_robust(const Task& task, const std::filesystem::path& out, const std::string& program,
                    unsigned threads, const long_work::Progress& progress);
 
 /// A share of the samples, as long_work::run_shard().
 /// @throws scene_file::SceneError  nothing was written
-/// @throws long_work::ForeignJournal, output::OutputError
+/// @throws long_work::ForeignJournal, process::FileError
 long_work::ShardSummary run_shard(const Task& task, const long_work::Shard& shard,
                                   const std::filesystem::path& folder, const std::string& program,
                                   unsigned threads, const long_work::Progress& progress);
@@ -45,7 +45,7 @@ Task task_of(const long_work::Collection& shards, const std::string& program);
 /// Writes of these samples what run_robust() writes, to the bit. The search for the worst plant,
 /// which needs all samples, is computed here, with a journal in the folder `out`.
 /// @throws long_work::Incomplete  shards are missing or damaged; nothing was written
-/// @throws long_work::ForeignJournal, output::OutputError
+/// @throws long_work::ForeignJournal, process::FileError
 Outcome merge_shards(const long_work::Collection& shards, const Task& task,
                      const std::filesystem::path& out, const std::string& program, unsigned threads,
                      const long_work::Progress& progress);

@@ -140,13 +140,13 @@ long_work::Computation computation_of(const Task& task);
 
 /// The rows that the journal holds and, into it, the others: the same to the bit for any number of
 /// threads and after any interruption.
-/// @throws output::OutputError  the journal cannot be written
+/// @throws process::FileError  the journal cannot be written
 class Solver {
  public:
   /// Opens or begins the journal of the folder, which exists.
   /// @param program  name, version and whatever else decides the last bit
   /// @param samples  those of shards; empty: they are computed here
-  /// @throws long_work::ForeignJournal, output::OutputError
+  /// @throws long_work::ForeignJournal, process::FileError
   Solver(const Task& task, const std::filesystem::path& folder, const std::string& program,
          std::vector<PlantRow> samples = {});
 

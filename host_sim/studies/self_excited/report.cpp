@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "host_sim/loop/steady/requirement.hpp"
 #include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/output/program.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/echo.hpp"
-#include "host_sim/steady/requirement.hpp"
 #include "host_sim/studies/self_excited/study.hpp"
 
 namespace sonoglide::self_excited {

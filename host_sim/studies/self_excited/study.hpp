@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/loop/steady/self_excitation.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/scene/scene.hpp"
-#include "host_sim/steady/self_excitation.hpp"
 
 namespace sonoglide::self_excited {
 

@@ -6,7 +6,6 @@
 #include <complex>
 #include <cstddef>
 
-#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::sweep {
@@ -20,7 +19,7 @@ double free_vibration_part(const scene::Scene& scene) {
       !(natural_rad_per_s > decay_per_s)) {
     return 0.0;
   }
-  const double rate_rad_per_s = numeric::two_pi * scene.drive->frequency_Hz;
+  const double rate_rad_per_s = scene.drive->rate_rad_per_s();
   const std::complex<double> stiffness = configure::dynamic_stiffness(plant, rate_rad_per_s);
   if (!(std::abs(stiffness) > 0.0)) {
     return 0.0;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/words.hpp"

@@ -32,14 +32,14 @@ struct Summary {
 /// @param program  name and version: a journal of another program is refused
 /// @param threads  0: one for each core
 /// @throws scene_file::SceneError  nothing was written
-/// @throws long_work::ForeignJournal, output::OutputError, process::ProcessError
+/// @throws long_work::ForeignJournal, process::FileError, process::ProcessError
 Summary run_sweep(const Plan& plan, const std::filesystem::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress);
 
 /// As long_work::run_shard() with the points of a sweep.
 /// @param program  name and version
 /// @throws scene_file::SceneError  nothing was written
-/// @throws long_work::ForeignJournal, output::OutputError
+/// @throws long_work::ForeignJournal, process::FileError
 long_work::ShardSummary run_shard(const Plan& plan, const long_work::Shard& shard,
                                   const std::filesystem::path& folder, const std::string& program,
                                   unsigned threads, const long_work::Progress& progress);
@@ -57,7 +57,7 @@ struct MergeSummary {
 /// @param program  name and version: shards of another program are refused
 /// @throws long_work::Incomplete  shards are missing or damaged; nothing was written
 /// @throws long_work::UnusableShards  of several works or of another program; nothing was written
-/// @throws output::OutputError, process::ProcessError
+/// @throws process::FileError, process::ProcessError
 MergeSummary merge_shards(const std::filesystem::path& folder, const std::filesystem::path& out,
                           const std::string& program, const long_work::Progress& progress);
 

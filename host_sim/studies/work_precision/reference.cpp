@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/work_precision/gragg_bulirsch_stoer.hpp"
 
 namespace sonoglide::work_precision {

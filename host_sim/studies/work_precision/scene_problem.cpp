@@ -4,7 +4,7 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::work_precision {

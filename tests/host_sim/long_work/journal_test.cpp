@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "tests/host_sim/long_work/folders/shard_folder.hpp"
 
 namespace sonoglide::long_work::journal_test {
@@ -117,7 +117,7 @@ TEST_F(JournalTest, ServesNoOtherSweepAndSaysWhy) {
 TEST_F(JournalTest, IsOneSweepsAtATime) {
   std::vector<std::string> found;
   const Journal first = open(found);
-  EXPECT_THROW(open(found), output::OutputError);
+  EXPECT_THROW(open(found), process::FileError);
 }
 
 TEST_F(JournalTest, GoesWhenTheSweepIsWhole) {

@@ -10,7 +10,7 @@
 
 #include <sys/resource.h>
 
-#include "host_sim/output/written_files.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "tests/host_sim/long_work/folders/shard_folder.hpp"
 
 namespace sonoglide::long_work::rows_file_test {
@@ -76,7 +76,7 @@ TEST(RowsFileTest, AFullDiskIsAnErrorAndLeavesNothing) {
   const rlimit small{100, before.rlim_max};
   std::signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
-  EXPECT_THROW(folder.publish(2), output::OutputError);
+  EXPECT_THROW(folder.publish(2), process::FileError);
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, SIG_DFL);
   EXPECT_TRUE(folder.has_no_shard());

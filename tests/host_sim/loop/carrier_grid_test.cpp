@@ -1,4 +1,4 @@
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/carrier_grid.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant_run.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/cores/solver_cores.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/loop/carrier_grid.hpp"
 #include "host_sim/loop/electrical.hpp"
+#include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant_run.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/constants/pi.hpp"

@@ -1,12 +1,12 @@
 /// The steady orbit against long runs, which know nothing of it, and against closed forms.
 
-#include "host_sim/loop/steady_orbit.hpp"
+#include "host_sim/loop/plant/steady_orbit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/lugre.hpp"

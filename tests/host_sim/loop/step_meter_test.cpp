@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/scene/solver_methods.hpp"

@@ -68,7 +68,7 @@ template <typename Action>
 std::string message_of(Action action) {
   try {
     action();
-  } catch (const OutputError& error) {
+  } catch (const process::FileError& error) {
     return error.what();
   }
   return "nothing was thrown";
@@ -193,7 +193,7 @@ TEST_F(OutputFolderTest, WhatIsSomebodyElsesIsNeitherReplacedNorRemoved) {
 TEST_F(OutputFolderTest, WhatWasChangedSinceIsSomebodyElses) {
   put_by_us(root_, {"trace.csv", "report.html"}, "ours");
   put(root_ / "trace.csv", "mine");  // of the same length
-  EXPECT_THROW(OutputFolder(root_, {"trace.csv"}), OutputError);
+  EXPECT_THROW(OutputFolder(root_, {"trace.csv"}), process::FileError);
   EXPECT_NO_THROW(OutputFolder(root_, {"report.html"}));
   fs::remove(root_ / "trace.csv");
   put_by_us(root_, {"trace.csv"}, "again");
@@ -205,7 +205,7 @@ TEST_F(OutputFolderTest, AFileThatAppearsMeanwhileIsKept) {
   output.write("file", "ours");
   output.withdraw("stale");
   put(root_ / "stale", "mine");
-  EXPECT_THROW(output.commit(), OutputError);
+  EXPECT_THROW(output.commit(), process::FileError);
   EXPECT_EQ(text_of(root_ / "stale"), "mine");
   EXPECT_EQ(names_in(root_).count("file"), 0U);
 }
@@ -213,9 +213,9 @@ TEST_F(OutputFolderTest, AFileThatAppearsMeanwhileIsKept) {
 TEST_F(OutputFolderTest, AForeignFileInTheListsPlaceIsKept) {
   OutputFolder output(root_);
   put(root_ / list, "mine\n");
-  EXPECT_THROW(OutputFolder(root_, {}), OutputError) << "before anything is computed";
+  EXPECT_THROW(OutputFolder(root_, {}), process::FileError) << "before anything is computed";
   output.write("file", "ours");
-  EXPECT_THROW(output.commit(), OutputError);
+  EXPECT_THROW(output.commit(), process::FileError);
   EXPECT_EQ(text_of(root_ / list), "mine\n");
 }
 
@@ -249,8 +249,8 @@ TEST_F(OutputFolderTest, TargetsThatCannotBeWrittenAreRefusedAtOnce) {
     const std::string message = message_of([&] { OutputFolder output(root_ / name); });
     EXPECT_EQ(message.find(root_.string()), 0U) << message;
   }
-  EXPECT_THROW(OutputFolder(""), OutputError);
-  EXPECT_THROW(OutputFolder("/proc/sonoglide/out"), OutputError);
+  EXPECT_THROW(OutputFolder(""), process::FileError);
+  EXPECT_THROW(OutputFolder("/proc/sonoglide/out"), process::FileError);
   EXPECT_EQ(names_in(root_), (Names{"dangling", "file"}));
 }
 

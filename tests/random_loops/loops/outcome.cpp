@@ -7,7 +7,7 @@
 
 #include "firmware/control/interface/names.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 
 namespace sonoglide::identify::impedance {

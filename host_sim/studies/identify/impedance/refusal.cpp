@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"

@@ -1,11 +1,11 @@
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "tests/common/constants/pi.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::steady::closed_form_test {
 namespace {

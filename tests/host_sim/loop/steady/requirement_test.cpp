@@ -1,15 +1,15 @@
 /// Required forces against the published values, closed forms and the energy identity.
 
-#include "host_sim/steady/requirement.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::steady::requirement_test {
 namespace {

@@ -1,6 +1,6 @@
 /// Steady sliding that excites itself, and the drives that quench it: against averaging by hand and
 /// against the motion itself.
-#include "host_sim/steady/self_excitation.hpp"
+#include "host_sim/loop/steady/self_excitation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include <random>
 #include <vector>
 
+#include "host_sim/loop/plant/steady_orbit.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/loop/steady_orbit.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 #include "host_sim/loop/watch.hpp"
-#include "host_sim/steady/requirement.hpp"
 #include "tests/common/constants/pi.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::steady::self_excitation_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "tests/common/constants/pi.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::detuning_test {
 namespace {

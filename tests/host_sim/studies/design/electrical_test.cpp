@@ -7,7 +7,7 @@
 #include <cmath>
 #include <complex>
 
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::electrical_test {
 namespace {
@@ -42,7 +42,7 @@ std::complex<double> admittance_S(const scene::Scene& scene) {
 TEST(ElectricalDesignTest, KnowsCouplingAndResonances) {
   const scene::Scene scene = transducer_scene();
   EXPECT_NEAR(coupling_square(scene), coupling, 1e-12);
-  const double series_Hz = series_resonance_Hz(scene);
+  const double series_Hz = scene.plant.natural_Hz();
   EXPECT_NEAR(series_Hz, 12978.69283885656, 1e-6);
   const double parallel_Hz = parallel_resonance_Hz(scene);
   EXPECT_NEAR(1.0 - series_Hz * series_Hz / (parallel_Hz * parallel_Hz), coupling, 1e-12);

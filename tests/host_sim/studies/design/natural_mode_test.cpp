@@ -9,7 +9,7 @@
 
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::natural_mode_test {
 namespace {

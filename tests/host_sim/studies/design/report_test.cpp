@@ -8,7 +8,7 @@
 
 #include "host_sim/studies/design/report.hpp"
 #include "tests/common/csv/csv.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::report_test {
 namespace {

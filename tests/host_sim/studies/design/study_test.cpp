@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/loop/failure.hpp"
-#include "tests/host_sim/steady/scenes/steady_scenes.hpp"
+#include "host_sim/loop/plant/failure.hpp"
+#include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::study_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/impedance/selection.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 

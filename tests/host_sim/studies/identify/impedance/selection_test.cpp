@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "host_sim/loop/failure.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
 #include "synthetic.hpp"
 
