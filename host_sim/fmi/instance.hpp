@@ -71,12 +71,14 @@ class Instance {
   State save();
   void restore(const State& state);
   /// As bytes for this FMU alone.
-  std::vector<std::uint8_t> bytes_of(const State& state) const;
+  std::vector<std::uint8_t> bytes_of(State state) const;
   /// @throws CallError  they are damaged, or of another FMU
   State state_of(const std::uint8_t* bytes, std::size_t count) const;
 
  private:
   SteppedScene& engine();
+  /// @throws CallError  back: of another FMU
+  void copy_parts(loop::StateCopy& copy, State& state) const;
   experiment::Experiment with_parameters() const;
   void require(bool allowed, const char* what) const;
   void require_step(double time_s, double duration_s) const;

@@ -15,9 +15,9 @@ std::string_view as_text(const std::uint8_t* bytes, std::size_t count) {
 State Instance::save() {
   State state = now_;
   if (engine_) {
-    loop::SnapshotWriter writer;
-    engine_->save(writer);
-    state.engine = writer.take();
+    loop::StateCopy copy;
+    engine_->copy_state(copy);
+    state.engine = copy.take();
   }
   return state;
 }
@@ -30,34 +30,44 @@ void Instance::restore(const State& state) {
     engine_.reset();
   }
   if (state.engine) {
-    loop::SnapshotReader reader(*state.engine);
-    engine().restore(reader);
-    if (!reader.over()) {
+    loop::StateCopy copy(*state.engine);
+    engine().copy_state(copy);
+    if (!copy.over()) {
       throw CallError("the state that is to be restored is too long");
     }
   }
 }
 
-std::vector<std::uint8_t> Instance::bytes_of(const State& state) const {
-  loop::SnapshotWriter writer;
-  writer.put(process::checksum(resources_.token));
-  writer.put(state.phase);
-  writer.put(state.start_s);
-  writer.put(state.time_s);
-  writer.put(state.inputs);
-  writer.put(state.parameters.size());
-  for (const auto& [reference, value] : state.parameters) {
-    writer.put(reference);
-    writer.put(value);
+void Instance::copy_parts(loop::StateCopy& copy, State& state) const {
+  std::uint64_t token = process::checksum(resources_.token);
+  copy(token);
+  if (token != process::checksum(resources_.token)) {
+    throw CallError("the serialized state is that of another FMU");
   }
-  writer.put(state.engine.has_value());
-  if (state.engine) {
-    writer.put(state.engine->size());
-    for (const std::byte byte : *state.engine) {
-      writer.put(byte);
+  std::size_t parameters = state.parameters.size();
+  copy(state.phase, state.start_s, state.time_s, state.inputs, parameters);
+  for (auto next = state.parameters.begin(); parameters > 0; --parameters) {
+    std::uint32_t reference = copy.is_back() ? 0 : next++->first;
+    copy(reference);
+    copy(state.parameters[reference]);
+  }
+  bool has_engine = state.engine.has_value();
+  copy(has_engine);
+  if (has_engine) {
+    loop::Snapshot& engine = state.engine ? *state.engine : state.engine.emplace();
+    std::size_t size = engine.size();
+    copy(size);
+    engine.resize(size);
+    for (std::byte& byte : engine) {
+      copy(byte);
     }
   }
-  const loop::Snapshot snapshot = writer.take();
+}
+
+std::vector<std::uint8_t> Instance::bytes_of(State state) const {
+  loop::StateCopy copy;
+  copy_parts(copy, state);
+  const loop::Snapshot snapshot = copy.take();
   std::vector<std::uint8_t> bytes(snapshot.size() + sizeof(std::uint64_t));
   std::memcpy(bytes.data(), snapshot.data(), snapshot.size());
   const std::uint64_t sum = process::checksum(as_text(bytes.data(), snapshot.size()));
@@ -77,34 +87,9 @@ State Instance::state_of(const std::uint8_t* bytes, std::size_t count) const {
   }
   loop::Snapshot snapshot(rest);
   std::memcpy(snapshot.data(), bytes, rest);
-  loop::SnapshotReader reader(snapshot);
-  std::uint64_t token = 0;
-  reader.get(token);
-  if (token != process::checksum(resources_.token)) {
-    throw CallError("the serialized state is that of another FMU");
-  }
+  loop::StateCopy copy(snapshot);
   State state;
-  reader.get(state.phase);
-  reader.get(state.start_s);
-  reader.get(state.time_s);
-  reader.get(state.inputs);
-  std::size_t parameters = 0;
-  reader.get(parameters);
-  for (; parameters > 0; --parameters) {
-    std::uint32_t reference = 0;
-    reader.get(reference);
-    reader.get(state.parameters[reference]);
-  }
-  bool has_engine = false;
-  reader.get(has_engine);
-  if (has_engine) {
-    std::size_t size = 0;
-    reader.get(size);
-    state.engine.emplace(size);
-    for (std::byte& byte : *state.engine) {
-      reader.get(byte);
-    }
-  }
+  copy_parts(copy, state);
   return state;
 }
 

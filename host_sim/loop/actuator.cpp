@@ -32,18 +32,11 @@ void Actuator::hold() {
   first_ = first_ + 1 == size ? 0 : first_ + 1;
 }
 
-void Actuator::save(SnapshotWriter& state) const {
-  for (const Command& command : queue_) {
-    state.put(command);
-  }
-  state.put(first_);
-}
-
-void Actuator::restore(SnapshotReader& state) {
+void Actuator::copy_state(StateCopy& copy) {
   for (Command& command : queue_) {
-    state.get(command);
+    copy(command);
   }
-  state.get(first_);
+  copy(first_);
 }
 
 }  // namespace sonoglide::loop

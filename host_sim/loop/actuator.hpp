@@ -45,8 +45,7 @@ class Actuator {
   /// In force during the next carrier period; off until the first answer acts.
   const Command& in_force() const { return queue_[first_]; }
 
-  void save(SnapshotWriter& state) const;
-  void restore(SnapshotReader& state);
+  void copy_state(StateCopy& copy);
 
  private:
   void take(const hal::Drive& drive, double target, std::int32_t frequency, std::int32_t bias);

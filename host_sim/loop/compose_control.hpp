@@ -112,17 +112,10 @@ class InProcess : public ControlPort {
     return std::nullopt;
   }
 
-  void save(SnapshotWriter& state) const override {
-    state.put(controller_);
-    state.put(texture_.has_value());
-    if (texture_) {
-      state.put(texture_->schedule().state());
-    }
-  }
-  void restore(SnapshotReader& state) override {
-    state.get(controller_);
+  void copy_state(StateCopy& copy) override {
+    copy(controller_);
     controller_.settle_at(parameters_);
-    restore_texture(state);
+    copy_texture(copy);
   }
 
  protected:
@@ -139,14 +132,18 @@ class InProcess : public ControlPort {
   }
 
  private:
-  void restore_texture(SnapshotReader& state) {
-    bool follows = false;
-    state.get(follows);
-    texture_.reset();
+  void copy_texture(StateCopy& copy) {
+    bool follows = texture_.has_value();
+    copy(follows);
+    if (copy.is_back()) {
+      texture_.reset();
+      if (follows) {
+        texture_.emplace(design_);
+      }
+    }
     if (follows) {
-      texture_.emplace(design_);
       auto place = texture_->schedule().state();
-      state.get(place);
+      copy(place);
       texture_->schedule().set_state(place);
     }
   }

@@ -26,11 +26,7 @@ std::optional<FrictionBelief> ControlPort::friction() const {
   return std::nullopt;
 }
 
-void ControlPort::save(SnapshotWriter& /*state*/) const {
-  throw std::logic_error("the state of this controller is out of reach");
-}
-
-void ControlPort::restore(SnapshotReader& /*state*/) {
+void ControlPort::copy_state(StateCopy& /*copy*/) {
   throw std::logic_error("the state of this controller is out of reach");
 }
 

@@ -31,10 +31,9 @@ class ControlPort {
   virtual std::vector<numeric::SignalRecord> signals() const = 0;
   /// Of friction that is learnt while driving; absent of any other, and of an image.
   virtual std::optional<FrictionBelief> friction() const;
-  /// The state, but for signals(), to go on from in a port that was made for the same design.
+  /// Of the state, but for signals(), to go on from in a port that was made for the same design.
   /// @throws std::logic_error  the controller is out of reach
-  virtual void save(SnapshotWriter& state) const;
-  virtual void restore(SnapshotReader& state);
+  virtual void copy_state(StateCopy& copy);
 };
 
 /// The controller of a scene, in this process: the image's control loop on a simulated board.

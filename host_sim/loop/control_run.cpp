@@ -121,40 +121,12 @@ void ControlRun::aim_at(double target) {
   port_.set_target(target_);
 }
 
-void ControlRun::save(SnapshotWriter& state) const {
-  state.put(hash_);
-  state.put(answer_);
-  state.put(next_step_);
-  state.put(periods_);
-  state.put(step_);
-  state.put(nominal_friction_N_);
-  state.put(elapsed_);
-  state.put(target_);
-  state.put(follows_texture_);
-  state.put(fault_);
-  state.put(record_.commands);
-  state.put(record_.saturated_commands);
-  sensor_.save(state);
-  actuator_.save(state);
-  port_.save(state);
-}
-
-void ControlRun::restore(SnapshotReader& state) {
-  state.get(hash_);
-  state.get(answer_);
-  state.get(next_step_);
-  state.get(periods_);
-  state.get(step_);
-  state.get(nominal_friction_N_);
-  state.get(elapsed_);
-  state.get(target_);
-  state.get(follows_texture_);
-  state.get(fault_);
-  state.get(record_.commands);
-  state.get(record_.saturated_commands);
-  sensor_.restore(state);
-  actuator_.restore(state);
-  port_.restore(state);
+void ControlRun::copy_state(StateCopy& copy) {
+  copy(hash_, answer_, next_step_, periods_, step_, nominal_friction_N_, elapsed_, target_,
+       follows_texture_, fault_, record_.commands, record_.saturated_commands);
+  sensor_.copy_state(copy);
+  actuator_.copy_state(copy);
+  port_.copy_state(copy);
 }
 
 void ControlRun::finish() {

@@ -67,9 +67,8 @@ class ControlRun {
   /// Of the answers so far.
   std::uint64_t trace_hash() const { return hash_.value(); }
 
-  /// All that the loop goes on from, with the counts of the record but for its faults.
-  void save(SnapshotWriter& state) const;
-  void restore(SnapshotReader& state);
+  /// Of all that the loop goes on from, with the counts of the record but for its faults.
+  void copy_state(StateCopy& copy);
 
   /// Fills in what the run ends with.
   void finish();

@@ -114,25 +114,13 @@ void Engine::finish() {
   }
 }
 
-void Engine::save(SnapshotWriter& state) const {
-  state.put(clock_);
-  state.put(distance_m_);
+void Engine::copy_state(StateCopy& copy) {
+  copy(clock_, distance_m_);
   if (plant_) {
-    plant_->save(state);
+    plant_->copy_state(copy);
   }
   if (control_) {
-    control_->save(state);
-  }
-}
-
-void Engine::restore(SnapshotReader& state) {
-  state.get(clock_);
-  state.get(distance_m_);
-  if (plant_) {
-    plant_->restore(state);
-  }
-  if (control_) {
-    control_->restore(state);
+    control_->copy_state(copy);
   }
 }
 

@@ -63,8 +63,7 @@ class Engine {
   /// Fills in what a run ends with.
   void finish();
 
-  void save(SnapshotWriter& state) const;
-  void restore(SnapshotReader& state);
+  void copy_state(StateCopy& copy);
 
  private:
   void pass_distance(PlantPeriod& period);

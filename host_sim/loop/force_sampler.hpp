@@ -32,8 +32,7 @@ class ForceSampler {
   /// Of the carrier period so far; none where the force is not sampled.
   const std::vector<double>& samples_N() const { return samples_N_; }
 
-  void save(SnapshotWriter& state) const { state.put(filtered_N_); }
-  void restore(SnapshotReader& state) { state.get(filtered_N_); }
+  void copy_state(StateCopy& copy) { copy(filtered_N_); }
 
  private:
   int intervals_ = 1;

@@ -156,22 +156,10 @@ void PlantRun::piece(double begin_s, double from_s, double until_s, double end_s
                        end_s, drive));
 }
 
-void PlantRun::save(SnapshotWriter& state) const {
-  state.put(given_velocity_m_per_s_);
-  state.put(pulled_m_);
-  state.put(drive_);
-  state.put(next_cut_);
-  force_.save(state);
-  plant_->save(state);
-}
-
-void PlantRun::restore(SnapshotReader& state) {
-  state.get(given_velocity_m_per_s_);
-  state.get(pulled_m_);
-  state.get(drive_);
-  state.get(next_cut_);
-  force_.restore(state);
-  plant_->restore(state);
+void PlantRun::copy_state(StateCopy& copy) {
+  copy(given_velocity_m_per_s_, pulled_m_, drive_, next_cut_);
+  force_.copy_state(copy);
+  plant_->copy_state(copy);
 }
 
 void PlantRun::finish() {

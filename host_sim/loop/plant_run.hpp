@@ -52,9 +52,8 @@ class PlantRun {
   /// Now, where the last call of advance() ended.
   PlantState state() const { return plant_->state(); }
 
-  /// All that the motion goes on from, but for the clock and the samples that a watch wants.
-  void save(SnapshotWriter& state) const;
-  void restore(SnapshotReader& state);
+  /// Of all that the motion goes on from, but for the clock and the samples that a watch wants.
+  void copy_state(StateCopy& copy);
 
   /// Fills in what the run ends with.
   void finish();

@@ -112,24 +112,12 @@ Conversion Sensor::seen(double velocity_m_per_s) {
                  scales_.velocity_m_per_s, sensor_.vibration_bits.value_or(ideal_bits));
 }
 
-void Sensor::save(SnapshotWriter& state) const {
-  state.put(filter_state_N_);
-  state.put(filter_input_N_);
-  for (const double force_N : pipeline_N_) {
-    state.put(force_N);
-  }
-  state.put(oldest_);
-  state.put(generator_);
-}
-
-void Sensor::restore(SnapshotReader& state) {
-  state.get(filter_state_N_);
-  state.get(filter_input_N_);
+void Sensor::copy_state(StateCopy& copy) {
+  copy(filter_state_N_, filter_input_N_);
   for (double& force_N : pipeline_N_) {
-    state.get(force_N);
+    copy(force_N);
   }
-  state.get(oldest_);
-  state.get(generator_);
+  copy(oldest_, generator_);
 }
 
 /// First-order lag, exact for an input that runs linearly from the last sample to this one.

@@ -68,8 +68,7 @@ class Sensor {
   hal::MotionSample sample(const PeriodForce& force, double sliding_velocity_m_per_s,
                            std::complex<double> vibration_m_per_s, double mean_velocity_m_per_s);
 
-  void save(SnapshotWriter& state) const;
-  void restore(SnapshotReader& state);
+  void copy_state(StateCopy& copy);
 
  private:
   /// Of a velocity of the vibration.

@@ -129,16 +129,9 @@ void SteppedScene::show_controller() {
                          control.trace_hash()};
 }
 
-void SteppedScene::save(SnapshotWriter& state) const {
-  state.put(plant_outputs_);
-  state.put(controller_outputs_);
-  engine_.save(state);
-}
-
-void SteppedScene::restore(SnapshotReader& state) {
-  state.get(plant_outputs_);
-  state.get(controller_outputs_);
-  engine_.restore(state);
+void SteppedScene::copy_state(StateCopy& copy) {
+  copy(plant_outputs_, controller_outputs_);
+  engine_.copy_state(copy);
 }
 
 }  // namespace sonoglide::loop

@@ -92,10 +92,9 @@ class SteppedScene {
   /// The controller names another fault than in the period before.
   bool fault_began() const { return fault_began_; }
 
-  void save(SnapshotWriter& state) const;
-  /// @param state  of an equal scene and the same kind
+  /// @param copy  back: of an equal scene and the same kind
   /// @throws std::invalid_argument  it cannot be that
-  void restore(SnapshotReader& state);
+  void copy_state(StateCopy& copy);
 
  private:
   bool has_plant() const { return engine_.plant().has_value(); }

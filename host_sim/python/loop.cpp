@@ -96,24 +96,21 @@ class Loop {
   bool over() const { return periods_ >= scene_periods_; }
   std::uint64_t seed() const { return experiment_.plant.sensor.seed; }
 
-  py::bytes save() const {
-    return pickled([this](loop::SnapshotWriter& state) {
-      state.put(periods_);
-      state.put(wanted_ratio_);
-      engine_->save(state);
-    });
+  py::bytes save() {
+    return pickled([this](loop::StateCopy& copy) { copy_state(copy); });
   }
   /// @param pickled  by a loop of the same scene and seed
   /// @throws std::invalid_argument  it cannot be that
   void restore(const py::bytes& pickled) {
-    unpickle(pickled, [this](loop::SnapshotReader& state) {
-      state.get(periods_);
-      state.get(wanted_ratio_);
-      engine_->restore(state);
-    });
+    unpickle(pickled, [this](loop::StateCopy& copy) { copy_state(copy); });
   }
 
  private:
+  void copy_state(loop::StateCopy& copy) {
+    copy(periods_, wanted_ratio_);
+    engine_->copy_state(copy);
+  }
+
   configure::Experiment experiment_;
   double period_s_;
   std::uint64_t scene_periods_;

@@ -14,22 +14,22 @@
 namespace sonoglide::python {
 
 /// The parts of a state, with a checksum, for one that is damaged must not be gone on from.
-/// @param put  writes them
-template <class Put>
-pybind11::bytes pickled(const Put& put) {
-  loop::SnapshotWriter writer;
-  put(writer);
-  const loop::Snapshot state = writer.take();
+/// @param copy_state  copies them
+template <class CopyState>
+pybind11::bytes pickled(const CopyState& copy_state) {
+  loop::StateCopy copy;
+  copy_state(copy);
+  const loop::Snapshot state = copy.take();
   std::string bytes(reinterpret_cast<const char*>(state.data()), state.size());
   const std::uint64_t sum = process::checksum(bytes);
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
   return bytes;
 }
 
-/// @param get  reads the parts
+/// @param copy_state  copies the parts
 /// @throws std::invalid_argument  they are damaged, or not those
-template <class Get>
-void unpickle(const pybind11::bytes& pickled, const Get& get) {
+template <class CopyState>
+void unpickle(const pybind11::bytes& pickled, const CopyState& copy_state) {
   const std::string bytes = pickled;
   std::uint64_t sum = 0;
   if (bytes.size() < sizeof(sum)) {
@@ -42,9 +42,9 @@ void unpickle(const pybind11::bytes& pickled, const Get& get) {
   }
   loop::Snapshot state(size);
   std::memcpy(state.data(), bytes.data(), size);
-  loop::SnapshotReader reader(state);
-  get(reader);
-  if (!reader.over()) {
+  loop::StateCopy copy(state);
+  copy_state(copy);
+  if (!copy.over()) {
     throw std::invalid_argument("the state that is to be restored is too long");
   }
 }

@@ -79,24 +79,21 @@ class ControllerUnit {
   bool observes_vibration() const { return scene().sensor.vibration.has_value(); }
   const configure::ControlScales& scales() const { return experiment_.design->scales; }
 
-  pybind11::bytes save() const {
-    return pickled([this](loop::SnapshotWriter& state) {
-      state.put(target_);
-      state.put(answer_);
-      port_->save(state);
-    });
+  pybind11::bytes save() {
+    return pickled([this](loop::StateCopy& copy) { copy_state(copy); });
   }
   /// @param pickled  by a unit of the same scene
   /// @throws std::invalid_argument  it cannot be that
   void restore(const pybind11::bytes& pickled) {
-    unpickle(pickled, [this](loop::SnapshotReader& state) {
-      state.get(target_);
-      state.get(answer_);
-      port_->restore(state);
-    });
+    unpickle(pickled, [this](loop::StateCopy& copy) { copy_state(copy); });
   }
 
  private:
+  void copy_state(loop::StateCopy& copy) {
+    copy(target_, answer_);
+    port_->copy_state(copy);
+  }
+
   const scene::Scene& scene() const { return experiment_.plant; }
 
   configure::Experiment experiment_;
@@ -224,7 +221,7 @@ py::dict answer_of(const Unit& unit) {
 void add_unit(py::module_& module) {
   py::class_<Unit> unit(module, "Unit");
   unit.def(py::init([](const Scene& scene) { return Unit{ControllerUnit(scene.experiment)}; }));
-  unit.def("save", [](const Unit& self) { return self.controller.save(); });
+  unit.def("save", [](Unit& self) { return self.controller.save(); });
   unit.def("restore", [](Unit& self, const py::bytes& state) { self.controller.restore(state); });
   unit.def(
       "step", &step_once, py::arg("force_code"), py::arg("velocity_code"),

@@ -73,18 +73,10 @@ ChangingPlant::ChangingPlant(const scene::Scene& scene)
       drive_rate_rad_per_s_(scene.drive ? scene.drive->rate_rad_per_s() : 0.0),
       held_(scene) {}
 
-void ChangingPlant::save(SnapshotWriter& state) const {
-  state.put(drive_rate_rad_per_s_);
-  state.put(tried_events_);
-  spring_.save(state);
-  held_.save(state);
-}
-
-void ChangingPlant::restore(SnapshotReader& state) {
-  state.get(drive_rate_rad_per_s_);
-  state.get(tried_events_);
-  spring_.restore(state);
-  held_.restore(state);
+void ChangingPlant::copy_state(StateCopy& copy) {
+  copy(drive_rate_rad_per_s_, tried_events_);
+  spring_.copy_state(copy);
+  held_.copy_state(copy);
 }
 
 plant::Cost ChangingPlant::cost() const {

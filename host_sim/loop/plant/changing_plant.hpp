@@ -27,8 +27,7 @@ class ChangingSpring {
   void settle(const Course& course, const PlantState& begin, const PlantState& end,
               EnergyBalance& energy);
 
-  void save(SnapshotWriter& state) const { state.put(reached_N_per_m_); }
-  void restore(SnapshotReader& state) { state.get(reached_N_per_m_); }
+  void copy_state(StateCopy& copy) { copy(reached_N_per_m_); }
 
  private:
   double mass_kg_;
@@ -76,8 +75,7 @@ class ChangingPlant final : public PlantPort {
   }
   PlantState state() const override { return held_.plant().state(); }
   plant::Cost cost() const override;
-  void save(SnapshotWriter& state) const override;
-  void restore(SnapshotReader& state) override;
+  void copy_state(StateCopy& copy) override;
 
  private:
   /// Part of the solver's tolerance within which the whole of a piece and its halves agree; what one

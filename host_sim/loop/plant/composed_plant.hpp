@@ -213,14 +213,7 @@ class ComposedPlant final : public PlantPort {
   PlantState state() const override { return in_si_units(with_load(state_)); }
   plant::Cost cost() const override { return solver_.cost(); }
 
-  void save(SnapshotWriter& state) const override {
-    state.put(solver_);
-    state.put(state_);
-  }
-  void restore(SnapshotReader& state) override {
-    state.get(solver_);
-    state.get(state_);
-  }
+  void copy_state(StateCopy& copy) override { copy(solver_, state_); }
 
  private:
   static constexpr bool moves = Model::Sliding::moves;

@@ -60,33 +60,17 @@ void HeldPlant::make(const Held& wanted) {
   plant_ = make_plant_port(scene_);
 }
 
-void HeldPlant::save(SnapshotWriter& state) const {
-  state.put(scene_.friction.coefficient);
-  state.put(scene_.friction.normal_force_N);
-  state.put(scene_.plant.stiffness_N_per_m);
-  state.put(scene_.drive ? scene_.drive->frequency_Hz : 0.0);
-  state.put(scene_.solver.method);
-  state.put(scene_.solver.tolerance);
-  state.put(drive_rate_rad_per_s_);
-  state.put(spent_);
-  plant_->save(state);
-}
-
-void HeldPlant::restore(SnapshotReader& state) {
-  state.get(scene_.friction.coefficient);
-  state.get(scene_.friction.normal_force_N);
-  state.get(scene_.plant.stiffness_N_per_m);
-  double frequency_Hz = 0.0;
-  state.get(frequency_Hz);
-  if (scene_.drive) {
-    scene_.drive->frequency_Hz = frequency_Hz;
+void HeldPlant::copy_state(StateCopy& copy) {
+  double frequency_Hz = scene_.drive ? scene_.drive->frequency_Hz : 0.0;
+  copy(scene_.friction.coefficient, scene_.friction.normal_force_N, scene_.plant.stiffness_N_per_m,
+       frequency_Hz, scene_.solver.method, scene_.solver.tolerance, drive_rate_rad_per_s_, spent_);
+  if (copy.is_back()) {
+    if (scene_.drive) {
+      scene_.drive->frequency_Hz = frequency_Hz;
+    }
+    plant_ = make_plant_port(scene_);
   }
-  state.get(scene_.solver.method);
-  state.get(scene_.solver.tolerance);
-  state.get(drive_rate_rad_per_s_);
-  state.get(spent_);
-  plant_ = make_plant_port(scene_);
-  plant_->restore(state);
+  plant_->copy_state(copy);
 }
 
 HeldPlant::Carried HeldPlant::carried() const {

@@ -49,8 +49,7 @@ class HeldPlant {
   /// As if no more had been spent until now.
   void set_cost(const plant::Cost& cost);
 
-  void save(SnapshotWriter& state) const;
-  void restore(SnapshotReader& state);
+  void copy_state(StateCopy& copy);
 
  private:
   void make(const Held& wanted);

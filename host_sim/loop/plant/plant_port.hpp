@@ -85,9 +85,8 @@ class PlantPort {
   virtual PlantState state() const = 0;
   virtual plant::Cost cost() const = 0;
 
-  /// All that the motion goes on from, in a plant that was made for the same scene.
-  virtual void save(SnapshotWriter& state) const = 0;
-  virtual void restore(SnapshotReader& state) = 0;
+  /// Of all that the motion goes on from, in a plant that was made for the same scene.
+  virtual void copy_state(StateCopy& copy) = 0;
 };
 
 }  // namespace sonoglide::loop

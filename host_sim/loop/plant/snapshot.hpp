@@ -13,44 +13,52 @@ namespace sonoglide::loop {
 /// As the machine holds it: bytes are of use to the build that wrote them.
 using Snapshot = std::vector<std::byte>;
 
-class SnapshotWriter {
+/// Copies what a state is made of into bytes, or back from them, in one order for both.
+class StateCopy {
  public:
-  /// @param value  holds no address of what may be elsewhere when the bytes are read
+  /// Into bytes.
+  StateCopy() = default;
+  /// Back. @param bytes  outlive this
+  explicit StateCopy(const Snapshot& bytes) : source_(&bytes) {}
+
+  bool is_back() const { return source_ != nullptr; }
+
+  /// @param values  hold no address of what may be elsewhere when they are copied back; constant ones
+  ///                are copied into bytes alone
+  /// @throws std::invalid_argument  there are not as many bytes left
+  template <class... Values>
+  void operator()(Values&... values) {
+    (copy(values), ...);
+  }
+
+  /// What was copied into bytes.
+  Snapshot take() { return std::move(bytes_); }
+  /// All bytes have been copied back.
+  bool over() const { return next_ == source_->size(); }
+
+ private:
   template <class Value>
-  void put(const Value& value) {
+  void copy(const Value& value) {
     static_assert(std::is_trivially_copyable_v<Value>);
     const auto* begin = reinterpret_cast<const std::byte*>(&value);
     bytes_.insert(bytes_.end(), begin, begin + sizeof(Value));
   }
-
-  Snapshot take() { return std::move(bytes_); }
-
- private:
-  Snapshot bytes_;
-};
-
-/// Takes the values in the order in which they were put.
-class SnapshotReader {
- public:
-  /// @param bytes  outlive the reader
-  explicit SnapshotReader(const Snapshot& bytes) : bytes_(bytes) {}
-
-  /// @throws std::invalid_argument  there are not as many bytes left
   template <class Value>
-  void get(Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    if (bytes_.size() - next_ < sizeof(Value)) {
+  void copy(Value& value) {
+    if (!is_back()) {
+      copy(std::as_const(value));
+      return;
+    }
+    if (source_->size() - next_ < sizeof(Value)) {
       throw std::invalid_argument("the state that is to be restored is too short");
     }
-    std::memcpy(static_cast<void*>(&value), bytes_.data() + next_, sizeof(Value));
+    std::memcpy(static_cast<void*>(&value), source_->data() + next_, sizeof(Value));
     next_ += sizeof(Value);
   }
 
-  bool over() const { return next_ == bytes_.size(); }
-
- private:
-  const Snapshot& bytes_;
-  std::size_t next_ = 0;
+  const Snapshot* source_ = nullptr;
+  std::size_t next_ = 0;  ///< of the source
+  Snapshot bytes_;
 };
 
 }  // namespace sonoglide::loop

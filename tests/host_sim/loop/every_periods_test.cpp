@@ -137,14 +137,14 @@ TEST(EveryPeriodsTest, SavedInTheMiddleOfAStepItGoesOnFromThere) {
     straight.advance({});
     broken.advance({});
   }
-  SnapshotWriter saved;
-  broken.save(saved);
+  StateCopy saved;
+  broken.copy_state(saved);
   for (int k = 0; k < 4; ++k) {
     broken.advance({});
   }
   const Snapshot snapshot = saved.take();
-  SnapshotReader reader(snapshot);
-  broken.restore(reader);
+  StateCopy reader(snapshot);
+  broken.copy_state(reader);
   for (int k = 0; k < 100; ++k) {
     straight.advance({});
     broken.advance({});

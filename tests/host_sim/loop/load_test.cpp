@@ -179,12 +179,12 @@ TEST(LoadSceneTest, IsSteppedFromOutside) {
   for (int i = 0; i < 20; ++i) {
     one.advance(inputs);
   }
-  SnapshotWriter writer;
-  one.save(writer);
+  StateCopy writer;
+  one.copy_state(writer);
   const Snapshot snapshot = writer.take();
   SteppedScene other(experiment, Kind::loop);
-  SnapshotReader reader(snapshot);
-  other.restore(reader);
+  StateCopy reader(snapshot);
+  other.copy_state(reader);
   for (int i = 0; i < 20; ++i) {
     one.advance(inputs);
     other.advance(inputs);
