@@ -8,6 +8,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
@@ -37,5 +38,22 @@ inline double contact_settling_periods(const scene::Scene& scene) {
   constexpr double carriers = 2.0;
   return carriers / scene.controller->every_periods;
 }
+
+/// 1/n, below 1: fixed point ends there.
+inline double mean_weight(double samples) {
+  constexpr double largest_code = 1.0 - 0x1p-31;
+  return std::min(1.0 / samples, largest_code);
+}
+
+inline constexpr double least_presliding_travels = 7.0;  // 0.1 % of the force is left
+inline constexpr double usual_presliding_travels = 2.0 * least_presliding_travels;
+
+/// Periods in which the contact slides through its presliding travel, so many times, and
+/// the sensor settles.
+double settling_periods(const scene::Scene& scene, const NominalPlant& plant,
+                        const ControlDesign& design, double presliding_travels);
+
+/// Of the undriven force, whose mean their noise moves by no more than 0.25 % rms; at most 16.
+double readings_for_mean(const scene::Scene& scene, const NominalPlant& plant);
 
 }  // namespace sonoglide::configure

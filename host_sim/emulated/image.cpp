@@ -1,12 +1,10 @@
 #include "host_sim/emulated/image.hpp"
 
-#include <elf.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -228,79 +226,6 @@ std::vector<std::string> run_command(const emulated::EmulatedBoard& board, const
   }
   const fs::path program = source_tree() / fmt::format("hal/{}/emulated/lockstep.cjs", board.name);
   return {"env", "NODE_PATH=" + npm_folder().string(), "node", program.string(), image.string()};
-}
-
-// What it takes of the board.
-
-namespace {
-
-/// A structure of the file, copied out: nothing in it need be aligned.
-template <class Structure>
-Structure at(std::string_view elf, std::size_t offset) {
-  Structure structure{};
-  if (offset > elf.size() || elf.size() - offset < sizeof structure) {
-    throw process::ProcessError("the image is cut short");
-  }
-  std::memcpy(&structure, elf.data() + offset, sizeof structure);
-  return structure;
-}
-
-Elf32_Ehdr header_of(std::string_view elf) {
-  const auto header = at<Elf32_Ehdr>(elf, 0);
-  if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_ident[EI_CLASS] != ELFCLASS32 ||
-      header.e_ident[EI_DATA] != ELFDATA2LSB) {
-    throw process::ProcessError("the image is no 32-bit ELF file");
-  }
-  return header;
-}
-
-}  // namespace
-
-ImageSize image_size(std::string_view elf) {
-  const Elf32_Ehdr header = header_of(elf);
-  ImageSize size;
-  for (std::size_t i = 0; i < header.e_shnum; ++i) {
-    const auto section = at<Elf32_Shdr>(elf, header.e_shoff + i * header.e_shentsize);
-    if ((section.sh_flags & SHF_ALLOC) == 0) {
-      continue;
-    }
-    // Values to begin with are kept in flash and copied.
-    size.flash_bytes += section.sh_type == SHT_NOBITS ? 0 : section.sh_size;
-    size.ram_bytes += (section.sh_flags & SHF_WRITE) == 0 ? 0 : section.sh_size;
-  }
-  return size;
-}
-
-std::uint64_t exception_frame_bytes(std::string_view elf) {
-  constexpr std::uint64_t integer_registers = 32;
-  constexpr std::uint64_t float_registers = 72;
-  constexpr std::uint64_t alignment = 4;
-  const Elf32_Ehdr header = header_of(elf);
-  if (header.e_machine != EM_ARM) {
-    return 0;
-  }
-  const bool float_unit = (header.e_flags & EF_ARM_ABI_FLOAT_HARD) != 0;
-  return integer_registers + (float_unit ? float_registers : 0) + alignment;
-}
-
-ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board) {
-  std::ifstream file(image, std::ios::binary);
-  const std::string elf{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const std::string disassembly =
-      process::run_tool({cross_tools(board).prefix + "objdump", "--disassemble", image.string()});
-  ImageCost cost{image_size(elf), stack_bound(disassembly, "reset")};
-  std::vector<std::string> handlers{"take_exception"};
-  if (!board.image_suffix.empty()) {
-    handlers.emplace_back("take_carrier");
-  }
-  for (const std::string& handler : handlers) {
-    const StackBound exception = stack_bound(disassembly, handler);
-    cost.stack.bytes += exception_frame_bytes(elf) + exception.bytes;
-    if (cost.stack.unbounded_by.empty()) {
-      cost.stack.unbounded_by = exception.unbounded_by;
-    }
-  }
-  return cost;
 }
 
 }  // namespace sonoglide::emulated

@@ -6,16 +6,13 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ostream>
 #include <set>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "host_sim/output/written_files.hpp"
-#include "host_sim/process/pipe.hpp"
+#include "host_sim/output/staged_file.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::output {
@@ -30,43 +27,6 @@ struct StudyReport {
 /// Writes the files, all or none, and takes away an earlier one of the name of one that is empty.
 /// @throws process::FileError
 void write(const std::filesystem::path& folder, const StudyReport& report);
-
-// A file that is written piece by piece.
-
-/// Hands over to the system what a stream writes, and throws where it refuses.
-class FileBuffer : public std::streambuf {
- public:
-  FileBuffer(const std::filesystem::path& file, std::filesystem::path target);
-  void close();
-
- protected:
-  int_type overflow(int_type character) override;
-  std::streamsize xsputn(const char* text, std::streamsize size) override;
-  int sync() override;
-
- private:
-  void hand_over(const char* text, std::streamsize size);
-
-  std::filesystem::path target_;
-  process::Descriptor file_;
-  std::vector<char> buffer_;
-};
-
-/// A new file as a stream. Where the system refuses to write, the stream throws at once, with the
-/// reason.
-class StagedFile : public std::ostream {
- public:
-  /// @param file    is not there yet
-  /// @param target  what errors name: where it will stand
-  /// @throws process::FileError  it cannot be created
-  StagedFile(const std::filesystem::path& file, const std::filesystem::path& target);
-
-  /// Everything is handed to the system; may be called again. @throws process::FileError
-  void close() { buffer_.close(); }
-
- private:
-  FileBuffer buffer_;
-};
 
 /// Files are staged in a hidden folder and moved to the target by commit(); without a commit the
 /// destructor removes every trace of them.

@@ -1,4 +1,4 @@
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/staged_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -6,19 +6,6 @@
 #include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::scene {
-namespace {
-
-bool smaller(const TimedValue& one, const TimedValue& other) {
-  return one.value < other.value;
-}
-
-/// The first row after a time.
-TimedProfile::const_iterator row_after(const TimedProfile& profile, double time_s) {
-  return std::upper_bound(profile.begin(), profile.end(), time_s,
-                          [](double time, const TimedValue& row) { return time < row.time_s; });
-}
-
-}  // namespace
 
 double natural_Hz(double stiffness_N_per_m, double mass_kg) {
   return std::sqrt(stiffness_N_per_m / mass_kg) / numeric::two_pi;
@@ -144,39 +131,6 @@ const char* Scene::profile_key() const {
     return "friction.normal_force_profile_N";
   }
   return drive && !drive->frequency_profile.empty() ? "drive.frequency_profile" : nullptr;
-}
-
-double value_at(const TimedProfile& profile, double time_s) {
-  const auto after = row_after(profile, time_s);
-  if (after == profile.begin()) {
-    return profile.front().value;
-  }
-  if (after == profile.end()) {
-    return profile.back().value;
-  }
-  const TimedValue& before = *(after - 1);
-  const double part = (time_s - before.time_s) / (after->time_s - before.time_s);
-  return before.value + part * (after->value - before.value);
-}
-
-double smallest_value(const TimedProfile& profile) {
-  return std::min_element(profile.begin(), profile.end(), smaller)->value;
-}
-
-double largest_value(const TimedProfile& profile) {
-  return std::max_element(profile.begin(), profile.end(), smaller)->value;
-}
-
-double relative_slope_per_s(const TimedProfile& profile, double time_s) {
-  const auto after = row_after(profile, time_s);
-  if (after == profile.begin() || after == profile.end()) {
-    return 0.0;
-  }
-  const TimedValue& before = *(after - 1);
-  const double change = std::abs(after->value - before.value);
-  return change > 0.0
-             ? change / std::max(before.value, after->value) / (after->time_s - before.time_s)
-             : 0.0;
 }
 
 }  // namespace sonoglide::scene

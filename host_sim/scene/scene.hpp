@@ -10,6 +10,7 @@
 
 #include "host_sim/scene/contact.hpp"
 #include "host_sim/scene/friction_laws.hpp"
+#include "host_sim/scene/timed_profile.hpp"
 #include "host_sim/scene/tolerance.hpp"
 
 namespace sonoglide::scene {
@@ -18,26 +19,6 @@ namespace sonoglide::scene {
 inline double nearest_multiple(double value, double step) {
   return step > 0.0 ? step * std::round(value / step) : value;
 }
-
-/// A row of a number that changes in time.
-struct TimedValue {
-  double time_s = 0.0;
-  double value = 0.0;
-};
-
-/// Linear between the rows and constant outside them; a jump is two rows of one time. Times do not
-/// fall.
-using TimedProfile = std::vector<TimedValue>;
-
-/// At a jump, the value after it.
-double value_at(const TimedProfile& profile, double time_s);
-
-double smallest_value(const TimedProfile& profile);
-double largest_value(const TimedProfile& profile);
-
-/// |d value / dt| [1/s] over the larger of the values at the ends of the line that holds at a time
-/// between two rows; 0 outside them, and where nothing changes.
-double relative_slope_per_s(const TimedProfile& profile, double time_s);
 
 /// √(Ks/m)/2π, without damping; 0 without a spring.
 double natural_Hz(double stiffness_N_per_m, double mass_kg);

@@ -43,7 +43,6 @@ class NotchShaper {
  public:
   static constexpr PartName part_name{"limits/notch_shaper", "NotchShaper"};
   using Scalar = ScalarT;
-  static constexpr int max_spacing = MaxSpacing;
   static constexpr std::size_t tap_count = TapCount;
 
   struct Parameters {

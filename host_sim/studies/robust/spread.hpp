@@ -18,11 +18,9 @@ namespace sonoglide::robust {
 /// stay a net, and each point by itself is uniform over the seeds.
 ///
 /// Coordinates are odd multiples of 2^-53: none is 0 or 1.
-/// @param dimensions  1 to most_dimensions
+/// @param dimensions  1 to 3667
 /// @param count       points 0 to count - 1, one after the other
 std::vector<double> scrambled_sobol(std::size_t dimensions, std::size_t count, std::uint64_t seed);
-
-inline constexpr std::size_t most_dimensions = 3667;
 
 /// The true value at a place of the distribution: half widths and ranges are uniform, integers among
 /// them equally likely; a normal one is cut off at the ends of its key's range.

@@ -60,10 +60,6 @@ TEST(TimedProfileTest, IsLinearBetweenRowsAndJumpsAtTwoOfOneTime) {
   EXPECT_EQ(scene::value_at(profile, 9.0), 0.0);
   EXPECT_EQ(scene::smallest_value(profile), 0.0);
   EXPECT_EQ(scene::largest_value(profile), 10.0);
-  EXPECT_EQ(scene::relative_slope_per_s(profile, 0.5), 0.0);
-  EXPECT_EQ(scene::relative_slope_per_s(profile, 2.0), 0.25) << "of the higher end";
-  EXPECT_EQ(scene::relative_slope_per_s(profile, 4.0), 0.5);
-  EXPECT_EQ(scene::relative_slope_per_s(profile, 6.0), 0.0);
 }
 
 TEST(ReaderTest, EveryKeyOfOpenLoop) {
