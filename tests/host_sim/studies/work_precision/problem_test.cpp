@@ -5,27 +5,15 @@
 #include <string>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/table_1.hpp"
 #include "tests/host_sim/studies/work_precision/peers/published/published_problems.hpp"
 
 namespace sonoglide::work_precision::problem_test {
 namespace {
 
-using tests::Table1;
-
 scene::Scene table_1() {
-  scene::Scene scene;
-  scene.plant.mass_kg = Table1::mass_kg;
-  scene.plant.stiffness_N_per_m = Table1::stiffness_N_per_m;
-  scene.friction.law = scene::laws::Dahl{};
-  scene.friction.coefficient = Table1::friction_coefficient;
-  scene.friction.normal_force_N = Table1::normal_force_N;
-  scene.friction.contact_stiffness_N_per_m = Table1::contact_stiffness_N_per_m;
-  scene.sliding.profile = {{0.0, 0.026714794439561918}};
-  scene.drive.emplace();
-  scene.drive->frequency_Hz = Table1::carrier_Hz;
-  scene.drive->force_amplitude_N = 384.0;
-  scene.run.duration_s = 100.0 / Table1::carrier_Hz;
+  scene::Scene scene = tests::table_1();
+  scene.run.window_start_s = 0.0;
   return scene;
 }
 

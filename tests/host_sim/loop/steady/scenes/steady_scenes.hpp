@@ -3,7 +3,7 @@
 
 #include "host_sim/scene/scene.hpp"
 #include "tests/common/constants/pi.hpp"
-#include "tests/common/constants/table_1_numbers.hpp"
+#include "tests/common/table_1.hpp"
 
 namespace sonoglide::steady {
 
@@ -11,22 +11,9 @@ using tests::Table1;
 
 /// The paper's Table 1 with 1920 N at most, sliding at 26.72 mm/s.
 inline scene::Scene table_1() {
-  scene::Scene scene;
-  scene.plant.mass_kg = Table1::mass_kg;
-  scene.plant.stiffness_N_per_m = Table1::stiffness_N_per_m;
-  scene.friction.law = scene::laws::Dahl{};
-  scene.friction.coefficient = Table1::friction_coefficient;
-  scene.friction.normal_force_N = Table1::normal_force_N;
-  scene.friction.contact_stiffness_N_per_m = Table1::contact_stiffness_N_per_m;
-  scene.sliding.profile = {{0.0, 0.02672}};
-  scene.drive.emplace();
-  scene.drive->frequency_Hz = Table1::carrier_Hz;
-  scene.drive->max_force_amplitude_N = 1920.0;
+  scene::Scene scene = tests::table_1_closed_loop();
   scene.run.duration_s = 6e-3;
-  scene.controller.emplace();
   scene.controller->target_friction_ratio = {{0.0, 0.7}, {1e-3, 0.3}, {2e-3, 0.5}, {3e-3, 0.3}};
-  scene.sensor.force_full_scale_N =
-      2.0 * scene.friction.coefficient * scene.friction.normal_force_N;
   return scene;
 }
 
