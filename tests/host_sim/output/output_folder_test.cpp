@@ -17,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "host_sim/process/file_error.hpp"
+
 namespace sonoglide::output::output_folder_test {
 namespace {
 
