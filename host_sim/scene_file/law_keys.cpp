@@ -35,16 +35,20 @@ struct Listing {
   }
 };
 
+Absent absent(const OwnKey& own) {
+  if (own.required) {
+    return Required{};
+  }
+  return own.count != nullptr ? static_cast<double>(*own.count) : *own.number;
+}
+
 Key described(const OwnKey& own) {
   const std::string_view name = own.name;
   const Uses with_law =
       uses::law([name](scene::FrictionLaw law) { return own_keys(law).find(name) != nullptr; });
-  const Absent absent = own.required           ? Absent(Required{})
-                        : own.count != nullptr ? Absent(static_cast<double>(*own.count))
-                                               : Absent(*own.number);
   const Allowed allowed =
       own.count != nullptr ? Allowed(whole(own.range)) : Allowed(Number{own.range});
-  return {name, OwnOfLaw{}, allowed, absent, std::string(own.meaning), with_law};
+  return {name, OwnOfLaw{}, allowed, absent(own), std::string(own.meaning), with_law};
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ class Terminal {
   template <class Condition>
   static void wait_for(const Condition& condition) {
     // A busy machine may keep an emulator waiting for minutes.
-    const auto end = std::chrono::steady_clock::now() + 10min;
+    const auto end = std::chrono::steady_clock::now() + 600s;
     while (!condition()) {
       if (end < std::chrono::steady_clock::now()) {
         throw std::runtime_error("the emulator hangs");
