@@ -2,7 +2,7 @@
 
 // One chart: its data, what of it is on show, and its drawing as SVG.
 class Chart {
-  static letter = 7.2;      // width of one, px
+  static letter = 8.3;      // width of one in a wide font, px
   static rightMargin = 14;  // px
 
   // @param data  as chart_json() writes it
@@ -131,7 +131,7 @@ class Chart {
     if (this.data.equalScales) this.makeScalesEqual((width - 70) / (height - 34));
     this.yTicks = this.ticks('y', values('y'), height / 40);
     const longest = (ticks) => Math.max(0, ...ticks.map(({text}) => text.length));
-    const left = Math.min(Math.max(34, Chart.letter * longest(this.yTicks.ticks) + 12), 0.4 * width);
+    const left = Math.min(Math.max(34, Chart.letter * longest(this.yTicks.ticks) + 8), 0.4 * width);
     this.area = {left, top: 8, width: Math.max(40, width - left - Chart.rightMargin), height: height - 34};
     this.xTicks = this.ticks('x', values('x'), this.area.width / 80);
     const wanted = Chart.letter * longest(this.xTicks.ticks) + 14;
