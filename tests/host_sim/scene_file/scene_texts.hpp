@@ -1,6 +1,10 @@
 /// Scenes that use every key a scene can have.
 #pragma once
 
+#include <string>
+
+#include "tests/common/scenes.hpp"
+
 namespace sonoglide::scene_file {
 
 /// Every key of a loop that holds the vibration at resonance.
@@ -262,19 +266,7 @@ samples_per_period = 8
 filter_Hz = 60e3
 )";
 
-inline constexpr const char* textured_closed_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-max_force_amplitude_N = 1920
-[run]
+inline const std::string textured_closed_loop = table_1_closed_loop + R"([run]
 duration_s = 2e-3
 [controller]
 arithmetic = "q31"
