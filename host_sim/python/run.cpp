@@ -98,9 +98,10 @@ std::string simulate(const experiment::Experiment& experiment, Recorded& recorde
   return report::summary_text(experiment, result, findings);
 }
 
-/// @param of_force  a friction force is the target
-py::dict periods_of(const Recorded& recorded, bool of_force, const py::object& owner) {
+/// Those of periods.csv, and more.
+py::dict periods_of(const Recorded& recorded, const scene::Scene& scene, const py::object& owner) {
   using loop::Period;
+  const bool of_force = report::target_unit(scene).is_force();
   const std::vector<Period>& rows = recorded.periods.periods;
   py::dict columns;
   columns["time_s"] = column(rows, &Period::begin_s, owner);
@@ -119,6 +120,9 @@ py::dict periods_of(const Recorded& recorded, bool of_force, const py::object& o
   columns["state"] = column(rows, &Period::state, owner);
   columns["limit"] = column(rows, &Period::limit, owner);
   columns["settling"] = column(rows, &Period::settling, owner);
+  if (scene.drive && scene.drive->bias_limit_N > 0.0) {
+    columns["bias_N"] = column(rows, &Period::bias_N, owner);
+  }
   return columns;
 }
 
@@ -163,9 +167,9 @@ py::tuple run(const Scene& scene) {
   const Recorded& kept = *recorded;
   const py::capsule owner(recorded.release(),
                           [](void* all) { delete static_cast<Recorded*>(all); });
-  return py::make_tuple(
-      summary, periods_of(kept, report::target_unit(scene.experiment.plant).is_force(), owner),
-      trace_of(kept, scene.experiment.plant.run.record, owner));
+  const scene::Scene& plant = scene.experiment.plant;
+  return py::make_tuple(summary, periods_of(kept, plant, owner),
+                        trace_of(kept, plant.run.record, owner));
 }
 
 }  // namespace

@@ -19,9 +19,10 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
           ? fmt::format("Closed loop, controller in {}",
                         scene::name_of(scene::arithmetics, scene.controller->arithmetic))
           : std::string("Open loop");
-  text += fmt::format(". Friction law: {}. Solver: {}. {:.6g} ms simulated in {:.3g} ms.",
+  text += fmt::format(". Friction law: {}. Solver: {}. {} simulated in {}.",
                       scene::name_of(scene.friction.law), scene::name_of(scene.solver.method),
-                      result.final_time_s * 1e3, result.wall_s * 1e3);
+                      output::quantity(result.final_time_s, "s", 6),
+                      output::quantity(result.wall_s, "s", 3));
   return text;
 }
 

@@ -23,6 +23,11 @@
     }));
   }
 
+  // The name of a key may go on in the next line, so that a table is no wider than it must be.
+  for (const cell of document.querySelectorAll('th, td')) {
+    if (cell.children.length === 0) cell.innerHTML = cell.innerHTML.replace(/_(?=\w)/g, '_<wbr>');
+  }
+
   markWide('.scroll');
 
   // On paper every table is open, and charts have letters for the width of a sheet.

@@ -89,7 +89,7 @@ output::Table figure_table(const std::vector<Estimate>& figures) {
 }
 
 output::Table correlation_table(const Correlations& correlations) {
-  output::Table table{"Correlations of the fitted parameters", {""}, {}};
+  output::Table table{"", {""}, {}};
   table.header.insert(table.header.end(), correlations.names.begin(), correlations.names.end());
   for (std::size_t i = 0; i < correlations.names.size(); ++i) {
     std::vector<std::string> row = {correlations.names[i]};

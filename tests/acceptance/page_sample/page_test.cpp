@@ -140,6 +140,9 @@ TEST_F(PageInBrowser, IsReadAt400Pixels) {
         (box) => box.scrollWidth > box.clientWidth);
     document.body.dataset.scrolled =
         String(wide.length > 0 && wide.every((box) => box.matches('.more-right[tabindex]')));
+    const saysSo = (box) => box.previousElementSibling.matches('.sideways:not([hidden])');
+    document.body.dataset.said = String([...document.querySelectorAll('.scroll')].every(
+        (box) => saysSo(box) === wide.includes(box)));
     const folded = () => document.querySelectorAll('details:not([open])').length;
     dispatchEvent(new Event('beforeprint'));
     document.body.dataset.printed = folded();
@@ -151,6 +154,8 @@ TEST_F(PageInBrowser, IsReadAt400Pixels) {
   EXPECT_EQ(count(seen, "data-hidden"), 0);
   EXPECT_GE(count(seen, "data-letters"), 12);
   EXPECT_EQ(browser::body_attribute(seen.dom, "data-scrolled"), "true");
+  EXPECT_EQ(browser::body_attribute(seen.dom, "data-said"), "true")
+      << "what is wider than the page says so, and nothing else";
   EXPECT_EQ(count(seen, "data-printed"), 0) << "every table is open on paper";
   EXPECT_EQ(count(seen, "data-folded"), 1) << "the words and symbols are folded again";
   expect_contrast(seen, false);

@@ -205,9 +205,11 @@ output::Page page(const ImpedanceStudy& study) {
   if (!identification.cannot_tell.empty()) {
     page.tables.push_back(sentence_table("What the data cannot tell", identification.cannot_tell));
   }
-  page.sections = {
-      {"Data and fit", noise_text(study), charts(study)},
-      {"Correlation of the parameters", "", {}, {correlation_table(identification.correlations)}}};
+  page.sections = {{"Data and fit", noise_text(study), charts(study)},
+                   {"Correlations of the fitted parameters",
+                    "",
+                    {},
+                    {correlation_table(identification.correlations)}}};
   return page;
 }
 
