@@ -97,7 +97,9 @@ const Numbers = (() => {
 
   // Of an axis that shows `range`, with the scale that names it. Over decades, powers of ten
   // without a prefix.
-  const ticksOf = (axis, range, count) => {
+  // @param shown  its ends, the larger one first on an axis that falls
+  const ticksOf = (axis, shown, count) => {
+    const range = [...shown].sort((a, b) => a - b);
     const scale = scaleFor(largestOf(range), axis.quantity.unit);
     if (!axis.logarithmic) {
       return {scale, ticks: linearTicks(range, Math.max(2, count), scale, axis.whole ? 1 : 0)};

@@ -43,7 +43,7 @@ class Panel {
 
   // @param shown  ranges in the axes' own measures; y: null follows x
   show({x, y}) {
-    const inside = (range) => range[1] - range[0] > 1e-12 * Math.max(1e-300, Numbers.largestOf(range));
+    const inside = (range) => Math.abs(range[1] - range[0]) > 1e-12 * Math.max(1e-300, Numbers.largestOf(range));
     if (!inside(x) || (y && !inside(y))) return;
     this.chart.shown = {x, y};
     this.draw();

@@ -122,8 +122,8 @@ class Reading {
     const {chart} = this;
     const now = this.at && this.tileAt(this.at.x, this.at.y);
     const inside = (axis, value) => {
-      const [low, high] = chart[`${axis}AxisRange`]();
-      return value >= low && value <= high;
+      const [first, last] = chart[`${axis}AxisRange`]();
+      return value >= Math.min(first, last) && value <= Math.max(first, last);
     };
     const middle = (axis, low, high) => chart.value(axis, (chart.measure(axis, low) + chart.measure(axis, high)) / 2);
     if (!now || !inside('x', this.at.x) || !inside('y', this.at.y)) {
@@ -132,8 +132,8 @@ class Reading {
       const beside = {...this.at};
       const move = (axis, direction, low, high) => {
         if (direction === 0) return;
-        const edge = chart.measure(axis, direction > 0 ? high : low);
-        beside[axis] = chart.value(axis, edge + direction * 1e-6 * (chart[axis][1] - chart[axis][0]));
+        const step = direction * 1e-6 * (chart[axis][1] - chart[axis][0]);
+        beside[axis] = chart.value(axis, chart.measure(axis, step > 0 ? high : low) + step);
       };
       move('x', across, now[0], now[1]);
       move('y', upward, now[2], now[3]);

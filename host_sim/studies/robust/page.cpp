@@ -277,10 +277,10 @@ output::Section worst_section(const Task& task, const Study& study) {
   output::Section section{
       "The worst loop",
       fmt::format(
-          "Found by {}: {}. It is the plant with the largest |steady error| + ripple; one on "
-          "which the loop fails comes before all others. sonoglide run worst.toml gives the "
-          "same loop.",
-          study.worst.found_by, task.describe(study.worst.factors)),
+          "Found by {}: the plant with the largest |steady error| + ripple; one on which the loop "
+          "fails comes before all others. Its true values are below. sonoglide run worst.toml "
+          "gives the same loop.",
+          study.worst.found_by),
       {}};
   section.charts.push_back(
       loop_chart("Worst plant", task.plant(study.worst.factors), task.design()));

@@ -13,7 +13,7 @@
 namespace sonoglide::page_test {
 namespace {
 
-constexpr int kPanels = 8;
+constexpr int kPanels = 9;
 
 class PageInBrowser : public ::testing::Test {
  protected:
@@ -136,6 +136,7 @@ TEST_F(PageInBrowser, IsReadAt400Pixels) {
     const size = (text) => parseFloat(getComputedStyle(text).fontSize) *
         text.ownerSVGElement.clientWidth / text.ownerSVGElement.viewBox.baseVal.width;
     document.body.dataset.letters = String(Math.floor(Math.min(...texts.map(size))));
+    document.body.dataset.longest = Math.max(...texts.map((text) => text.textContent.length));
     const wide = [...document.querySelectorAll('.scroll')].filter(
         (box) => box.scrollWidth > box.clientWidth);
     document.body.dataset.scrolled =
@@ -153,6 +154,7 @@ TEST_F(PageInBrowser, IsReadAt400Pixels) {
   EXPECT_EQ(count(seen, "data-width"), 400);
   EXPECT_EQ(count(seen, "data-hidden"), 0);
   EXPECT_GE(count(seen, "data-letters"), 12);
+  EXPECT_LE(count(seen, "data-longest"), 6) << "of the numbers on axes";
   EXPECT_EQ(browser::body_attribute(seen.dom, "data-scrolled"), "true");
   EXPECT_EQ(browser::body_attribute(seen.dom, "data-said"), "true")
       << "what is wider than the page says so, and nothing else";
