@@ -94,11 +94,16 @@ SlopeBound slope_bound(const ControlDesign& design) {
   return {design.slew_limited ? design.slew_per_period : 0.0, 0.0, control::Limit::slew};
 }
 
-/// The steepest change of the vibration that the texture means at the fastest sliding, over the bound.
-double overload(const scene::Texture& texture, double fastest_m_per_s, const SlopeBound& bound,
-                const ControlDesign& design) {
+/// What the texture means at the fastest sliding, over what the drive can.
+struct Demand {
+  double change = 0.0;     ///< of the vibration in a step
+  double vibration = 0.0;  ///< itself
+};
+
+Demand demand(const scene::Texture& texture, double fastest_m_per_s, const SlopeBound& bound,
+              const ControlDesign& design) {
   if (bound.at_rest == 0.0) {
-    return 0.0;
+    return {};
   }
   const double friction_N = design.friction_force * design.scales.force_N;
   const VibrationMap map = design.vibration_map(friction_N);
@@ -113,12 +118,14 @@ double overload(const scene::Texture& texture, double fastest_m_per_s, const Slo
     const double ratio = texture.of_force ? std::min(1.0, target / friction_N) : target;
     return map.velocity_m_per_s(ratio, fastest_m_per_s) / design.scales.velocity_m_per_s;
   };
-  double largest = 0.0;
+  Demand largest;
   double before = velocity(0.0);
   for (std::size_t i = 1; i <= count; ++i) {
     const double now = velocity(spacing_m * static_cast<double>(i));
     const double change = std::abs(now - before) * step_m / spacing_m;
-    largest = std::max(largest, change / bound.of(std::max(before, now), now > before));
+    largest.change =
+        std::max(largest.change, change / bound.of(std::max(before, now), now > before));
+    largest.vibration = std::max(largest.vibration, bound.losses * now);
     before = now;
   }
   return largest;
@@ -139,7 +146,9 @@ void design_texture(const scene::Scene& scene, ControlDesign& design) {
   set_path(design.scales.velocity_m_per_s * design.scales.step_period_s() / texture.period_m,
            design, found);
   const SlopeBound bound = slope_bound(design);
-  found.overload = overload(texture, fastest_m_per_s, bound, design);
+  const Demand demanded = demand(texture, fastest_m_per_s, bound, design);
+  found.overload = demanded.change;
+  found.vibration_demand = demanded.vibration;
   found.fastest_m_per_s = fastest_m_per_s;
   found.limit = bound.limit;
 }

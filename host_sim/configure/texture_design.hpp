@@ -19,6 +19,8 @@ struct TextureDesign {
   /// Steepest change of the vibration at the fastest sliding, over what the drive can: above 1 it is not
   /// followed there. 0 where nothing limits it.
   double overload = 0.0;
+  /// Strongest vibration of the texture there, over what a resonant drive holds; 0 of another drive.
+  double vibration_demand = 0.0;
   double fastest_m_per_s = 0.0;                 ///< sliding
   control::Limit limit = control::Limit::none;  ///< that is named where it is not followed
 };

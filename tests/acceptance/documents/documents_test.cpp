@@ -139,6 +139,10 @@ TEST(Documents, TheExplanationShowsWhatItsCommandsPrint) {
   EXPECT_EQ(expect_commands_shown(source / "host_sim/scenes/why_vibration_lowers_friction.md"), 3);
 }
 
+TEST(Documents, TheUsesShowWhatTheirCommandsPrint) {
+  EXPECT_EQ(expect_commands_shown(source / "host_sim/scenes/what_the_friction_is_for.md"), 9);
+}
+
 /// Commands of at most some seconds, in this folder; the others have tests of their own.
 bool is_quick(const std::string& commands) {
   static const std::regex quick(R"(^sonoglide (run|ratio|design|configure) )");
