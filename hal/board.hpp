@@ -50,7 +50,7 @@ struct Drive {
   std::uint8_t settling;  ///< control::Settling
 };
 
-/// Of a unit that observes the vibration. At resonance its amplitude is from -2^31 + 1 on; below 0 the
+/// Of a unit that observes the vibration. At resonance its amplitude is from -2^31 on; below 0 the
 /// phase of the drive is turned by π.
 struct ResonantDrive : Drive {
   std::int32_t frequency;  ///< steps of the frequency word above that of the start; else 0

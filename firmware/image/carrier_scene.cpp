@@ -11,27 +11,46 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
 
+namespace sonoglide::app {
+/// Found where the configuration has no step of its own: the drive keeps its frequency.
+inline constexpr double frequency_step_Hz = 0.0;
+namespace configuration {
+inline constexpr double step_of_drive_Hz = frequency_step_Hz;
+}
+}  // namespace sonoglide::app
+
 namespace {
 
 using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
-namespace hal = sonoglide::hal;
 
-constexpr std::uint32_t ticks = sonoglide::image::CarrierTicks<
-    configuration::Parts, Hardware::Board, configuration::every_periods,
-    configuration::delay_periods, configuration::interpolates>::of(configuration::carrier_period_s);
+constexpr bool tuned = configuration::step_of_drive_Hz > 0.0;
+constexpr std::uint32_t ticks =
+    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board,
+                                   configuration::every_periods, configuration::delay_periods,
+                                   configuration::interpolates,
+                                   tuned>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
+
+using Controller = sonoglide::control::Controller<configuration::Parts>;
+using Answer = app::DriveOf<Controller>;
 
 /// The board, whose answers are there for who watches the memory.
 class ShownBoard : public Hardware::Board {
  public:
   using Hardware::Board::Board;
-  void drive(const hal::Drive& drive);
+  void drive(const Answer& answer);
 };
 
-using Controller = sonoglide::control::Controller<configuration::Parts>;
+template <class Board>
+void tune(Board& board) {
+  if constexpr (tuned) {
+    board.tune(configuration::carrier_period_s, configuration::step_of_drive_Hz);
+  }
+}
+
 using Targets = decltype(app::schedule_of(configuration::target_steps));
 
 struct Run {
@@ -46,7 +65,7 @@ Run* run;  // set before the carrier interrupts
 }  // namespace
 
 extern "C" {
-hal::Drive last_answer;
+Answer last_answer;
 
 void take_carrier() {
   run->targets.advance(run->controller);
@@ -55,15 +74,16 @@ void take_carrier() {
 }
 
 namespace {
-void ShownBoard::drive(const hal::Drive& drive) {
-  Hardware::Board::drive(drive);
-  last_answer = drive;
+void ShownBoard::drive(const Answer& answer) {
+  Hardware::Board::drive(answer);
+  last_answer = answer;
 }
 }  // namespace
 
 int main() {
   Run own;
   own.controller.start();
+  tune(own.board);
   run = &own;
   Hardware::Board::interrupt();
   for (;;) {

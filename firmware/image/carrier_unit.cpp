@@ -18,9 +18,11 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
-constexpr std::uint32_t ticks = sonoglide::image::CarrierTicks<
-    configuration::Parts, Hardware::Board, configuration::every_periods,
-    configuration::delay_periods, configuration::interpolates>::of(configuration::carrier_period_s);
+constexpr std::uint32_t ticks =
+    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board,
+                                   configuration::every_periods, configuration::delay_periods,
+                                   configuration::interpolates,
+                                   false>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
 

@@ -40,8 +40,8 @@ struct VectorTable {
 [[gnu::section(".entry"), gnu::used]] const VectorTable vectors = {
     stack_top,
     reset,
-    {take_exception, take_exception, take_exception, take_exception, take_exception, take_exception,
+    {take_non_maskable_interrupt, take_exception, take_exception, take_exception, take_exception,
      take_exception, take_exception, take_exception, take_exception, take_exception, take_exception,
-     take_exception, take_system_tick}};
+     take_exception, take_exception, take_system_tick}};
 
 }  // namespace

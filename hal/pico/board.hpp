@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "hal/board.hpp"
-#include "hal/pico/amplitude.hpp"
+#include "hal/bridge.hpp"
 #include "hal/pico/clocks.hpp"
 
 namespace sonoglide::hal::pico {
@@ -41,11 +41,14 @@ extern "C" volatile std::uint32_t conversions[2][pairs_in_period];
 extern "C" void take_carrier();
 
 /// The carrier: a full bridge at GPIO 2 and 3, driven by pulses that are centred on the drive's phases 0
-/// and pi (amplitude.hpp). The sample of a period is the mean of four conversions of the force (GPIO 26)
+/// and pi (hal/bridge.hpp). The sample of a period is the mean of four conversions of the force (GPIO 26)
 /// and of four of the sliding velocity (GPIO 27), taken in turn. Two channels of the DMA carry them to
 /// RAM, one for the even and one for the odd periods, so that they stay there for a period.
 class Board {
  public:
+  static constexpr bool computes_floating_point = false;
+  static constexpr bool observes_vibration = false;
+  static constexpr bool has_vibration_sensor = false;
   static constexpr std::uint32_t clock_hz = system_hz;
 
   /// Clocks of the system in a carrier period; 0 if the board cannot make it. Eight conversions of a whole
@@ -97,7 +100,8 @@ class Board {
   }
 
   void drive(const Drive& drive) {
-    carrier_slice.compare = pulses_of(drive.amplitude, half_period_);
+    carrier_slice.compare =
+        pulses_of(half_width_of(static_cast<std::uint32_t>(drive.amplitude), half_period_));
   }
 
   std::uint32_t period() const {
@@ -106,6 +110,12 @@ class Board {
 
  private:
   static constexpr std::uint32_t slice_event = 1U << 1;
+
+  /// Compare values of both outputs. The slice counts from 0 to half a carrier period less one and down again:
+  /// A is high within so many counts of 0, and B, which is inverted, within as many of the top.
+  std::uint32_t pulses_of(std::uint32_t half_width) const {
+    return half_width | (half_period_ - half_width) << 16;
+  }
 
   /// Four codes of 12 bits, offset binary, as a code whose full scale is 2^31.
   static std::int32_t left_justified(std::uint32_t sum) {

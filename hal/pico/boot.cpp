@@ -1,8 +1,9 @@
-// From the second stage to the program: runs from flash, starts the clocks and copies the program to RAM.
+// The clocks of the chip, before its program is loaded.
 // Source: Raspberry Pi, RP2040 Datasheet, resets, XOSC, PLL, clocks.
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/cortex_m/loaded/load_program.hpp"
 #include "hal/pico/clocks.hpp"
 #include "hal/pico/resets.hpp"
 
@@ -46,11 +47,6 @@ extern CrystalRegisters crystal;
 extern PllRegisters system_pll;
 extern PllRegisters usb_pll;
 extern ClockRegisters clocks;
-extern const std::uint32_t program_image[];
-extern std::uint32_t program_begin[];
-extern std::uint32_t program_end[];
-extern volatile std::uint32_t vector_table_offset;
-extern std::uint32_t stack_top[];
 }
 
 constexpr std::uint32_t crystal_enabled = 0xfab000;
@@ -83,7 +79,9 @@ constexpr std::uint32_t clock_enabled =
   pll.power_down = modulator_down;
 }
 
-[[gnu::section(".boot"), gnu::noinline]] void start_clocks() {
+}  // namespace
+
+extern "C" [[gnu::section(".boot")]] void start_clocks() {
   crystal.startup = startup_of_1_ms;
   crystal.control = crystal_enabled | crystal_of_1_to_15_MHz;
   while ((crystal.status & stable) == 0) {
@@ -104,42 +102,6 @@ constexpr std::uint32_t clock_enabled =
   }
   clocks.peripheral_control = clock_enabled;
   clocks.converter_control = clock_enabled;
-}
-
-/// In place of the program's exception handlers. The pins are as after a reset: the drive is off.
-[[gnu::section(".boot")]] void stay() {
-  for (;;) {
-  }
-}
-
-// Through volatile, because a call to copy memory would lead to where nothing is yet.
-[[gnu::section(".boot"), noreturn]] void load_program() {
-  start_clocks();
-  const volatile std::uint32_t* from = program_image;
-  for (volatile std::uint32_t* to = program_begin; to != program_end; to = to + 1) {
-    *to = *from;
-    from = from + 1;
-  }
-  const volatile std::uint32_t* vectors = program_begin;
-  vector_table_offset = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(vectors));
-  asm volatile("msr msp, %0 \n bx %1 \n" : : "r"(vectors[0]), "r"(vectors[1]));
-  __builtin_unreachable();
-}
-
-struct VectorTable {
-  std::uint32_t* initial_stack;
-  void (*reset)();
-  void (*exceptions[14])();
-};
-
-}  // namespace
-
-extern "C" {
-[[gnu::section(".boot_vectors")]] extern const VectorTable boot_vectors;
-const VectorTable boot_vectors = {
-    stack_top,
-    load_program,
-    {stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay}};
 }
 
 }  // namespace sonoglide::hal::pico

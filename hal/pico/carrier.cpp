@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/cortex_m/interrupts.hpp"
 #include "hal/pico/board.hpp"
 #include "hal/pico/pins.hpp"
 #include "hal/pico/resets.hpp"
@@ -27,16 +28,10 @@ struct ChannelRegisters {
 };
 static_assert(sizeof(ChannelRegisters) == 0x40);
 
-constexpr std::size_t exceptions_of_processor = 16;
-constexpr std::size_t interrupts = 32;
-constexpr std::size_t carrier_interrupt = 4;
-
 // Addresses from memory.ld.
 extern "C" {
 extern ConverterRegisters converter;
 extern ChannelRegisters transfers[2];
-extern volatile std::uint32_t interrupt_enable;
-extern volatile std::uint32_t vector_table_offset;
 }
 
 constexpr std::uint32_t counting = 1U << 0;
@@ -63,8 +58,6 @@ std::uint32_t address(const volatile void* object) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object));
 }
 
-alignas(4 * 64) std::uint32_t vectors[exceptions_of_processor + interrupts];
-
 }  // namespace
 
 extern "C" {
@@ -76,7 +69,7 @@ Board::Board(std::uint32_t period_ticks) : half_period_(period_ticks / 2) {
   carrier_slice.control = up_and_down | second_output_inverted;
   carrier_slice.divider = 1U << 4;
   carrier_slice.top = half_period_ - 1;
-  carrier_slice.compare = pulses_of(0, half_period_);
+  carrier_slice.compare = pulses_of(0);
   carrier_slice.counter = 0;
   leave_to_converter(26);
   leave_to_converter(27);
@@ -112,21 +105,9 @@ Board::Board(std::uint32_t period_ticks) : half_period_(period_ticks / 2) {
 }
 
 void Board::interrupt() {
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): the processor tells an address
-  const auto* const old = reinterpret_cast<const volatile std::uint32_t*>(
-      static_cast<std::uintptr_t>(vector_table_offset));
-  for (std::size_t i = 0; i < exceptions_of_processor; ++i) {
-    vectors[i] = old[i];
-  }
-  for (std::size_t i = exceptions_of_processor; i < exceptions_of_processor + interrupts; ++i) {
-    vectors[i] = old[2];
-  }
-  vectors[exceptions_of_processor + carrier_interrupt] =
-      static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(take_carrier));
-  asm volatile("" : : : "memory");
-  vector_table_offset = address(vectors);
+  constexpr std::size_t carrier_interrupt = 4;
+  cortex_m::take_interrupt<32>(carrier_interrupt, take_carrier);
   carrier_events.interrupting = slice_event;
-  interrupt_enable = 1U << carrier_interrupt;
 }
 
 }  // namespace sonoglide::hal::pico

@@ -13,4 +13,8 @@ extern "C" {
 /// On the interrupt of the processor's system timer. An image that expects it defines it, for one as the
 /// carrier's interrupt; in any other it is take_exception.
 void take_system_tick();
+
+/// On a non-maskable interrupt. A board on which it may be harmless defines it; on any other it is
+/// take_exception.
+void take_non_maskable_interrupt();
 }

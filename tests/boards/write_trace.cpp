@@ -1,6 +1,7 @@
 // Runs a scene on the workstation and writes what its controller meets, a line for each of its steps:
 // force, sliding velocity, force at rail, fresh, velocity at rail; amplitude, commanded ratio, state, limit,
-// fault, settling. Or, with --header, the samples as C++ for an image, and the hash of the commands.
+// fault, settling. One that observes the vibration has in phase and quadrature behind the velocity's rail, and the
+// frequency at the end. Or, with --header, the samples as C++ for an image, and the hash of the commands.
 //
 // Usage: board_trace [--header] SCENE.toml [TABLE.KEY=VALUE ...] > trace
 #include <cstdint>
@@ -19,11 +20,27 @@
 namespace sonoglide {
 namespace {
 
-void write_line(const hal::Sample& sample, const hal::Drive& drive) {
+void write_sample(const hal::Sample& sample) {
   std::cout << sample.friction_force << ' ' << sample.sliding_velocity << ' '
-            << sample.force_at_rail << ' ' << sample.fresh << ' ' << sample.velocity_at_rail << ' '
-            << drive.amplitude << ' ' << drive.commanded_ratio << ' ' << int{drive.state} << ' '
-            << int{drive.limit} << ' ' << int{drive.fault} << ' ' << int{drive.settling} << '\n';
+            << sample.force_at_rail << ' ' << sample.fresh << ' ' << sample.velocity_at_rail << ' ';
+}
+
+void write_answer(const hal::Drive& drive) {
+  std::cout << drive.amplitude << ' ' << drive.commanded_ratio << ' ' << int{drive.state} << ' '
+            << int{drive.limit} << ' ' << int{drive.fault} << ' ' << int{drive.settling};
+}
+
+void write_line(const hal::Sample& sample, const hal::Drive& drive) {
+  write_sample(sample);
+  write_answer(drive);
+  std::cout << '\n';
+}
+
+void write_line(const hal::VibrationSample& sample, const hal::ResonantDrive& drive) {
+  write_sample(sample);
+  std::cout << sample.in_phase << ' ' << sample.quadrature << ' ';
+  write_answer(drive);
+  std::cout << ' ' << drive.frequency << '\n';
 }
 
 void write_initialiser(const hal::Sample& sample, const hal::Drive& /*drive*/) {
@@ -44,6 +61,12 @@ class WritingPort final : public loop::ControlPort {
   hal::Drive exchange(const hal::Sample& sample) override {
     const hal::Drive drive = port_->exchange(sample);
     write_(sample, drive);
+    return drive;
+  }
+
+  hal::ResonantDrive exchange(const hal::VibrationSample& sample) override {
+    const hal::ResonantDrive drive = port_->exchange(sample);
+    write_line(sample, drive);
     return drive;
   }
 

@@ -74,26 +74,26 @@ endfunction()
 # sonoglide_carrier_board(<name> FOLDER <f> HARDWARE <class>): a board whose carrier interrupts. Its class is
 # in <f>/board.hpp, its memory map in <f>/memory.ld. Each controller gives <name of its folder>_unit.elf, with
 # a link to its host, and <name>_scene.elf, with the targets of its scene. <f>/write_uf2 writes a .uf2 beside
-# each, where there is Python.
+# each, where there is such a program, and Python.
 function(sonoglide_carrier_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;HARDWARE" "" ${ARGN})
-  sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
+  sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_loaded)
   find_program(SONOGLIDE_INTERPRETER python3)
   foreach(image unit scene)
     sonoglide_images(_${image} SOURCE firmware/image/carrier_${image}.cpp
       MEMORY ${BOARD_FOLDER}/memory.ld CLASS ${BOARD_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
-      USES sonoglide_carrier_image sonoglide_board sonoglide_processor)
+      USES sonoglide_carrier_image sonoglide_board)
     foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
       get_filename_component(controller "${folder}" NAME)
       set(target ${controller}_${image})
-      # Measured on a Cortex-M0+: 8 % fewer clocks in a carrier period.
+      # Measured: 8 % fewer clocks in a carrier period on a Cortex-M0+, 4 to 8 % fewer instructions on an M4F.
       target_compile_options(${target} PRIVATE
         -O3 -fira-algorithm=priority -frename-registers -fno-tree-vrp -fno-tree-pre -fno-split-wide-types -fno-ivopts -fno-reorder-blocks -fno-tree-sink)
-      if(SONOGLIDE_INTERPRETER)
+      if(SONOGLIDE_INTERPRETER AND EXISTS "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/write_uf2")
         add_custom_command(TARGET ${target} POST_BUILD VERBATIM
           COMMAND "${SONOGLIDE_INTERPRETER}" "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/write_uf2"
             "$<TARGET_FILE:${target}>")
@@ -163,12 +163,14 @@ if(CMAKE_CROSSCOMPILING)
   sonoglide_room(sonoglide_halt hal/halt USES sonoglide_start sonoglide_timed)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
     sonoglide_room(sonoglide_processor hal/cortex_m USES sonoglide_start)
+    sonoglide_room(sonoglide_loaded hal/cortex_m/loaded USES sonoglide_processor)
   else()
     sonoglide_room(sonoglide_processor hal/riscv USES sonoglide_start)
   endif()
 
   sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
   sonoglide_carrier_board(pico FOLDER hal/pico HARDWARE pico::Hardware)
+  sonoglide_carrier_board(nucleo-g474re FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware)
   sonoglide_emulated_board(microbit FOLDER hal/microbit
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
   foreach(board mps2-an385 mps2-an386 mps2-an500)

@@ -36,6 +36,7 @@ endfunction()
 
 sonoglide_drivers(arm FLAGS --target=thumbv7em-none-eabi
   FOLDERS hal hal/start hal/timed hal/halt hal/lockstep hal/lockstep/board hal/semihosting
-    hal/cortex_m hal/microbit hal/mps2 hal/netduinoplus2 hal/pico hal/template)
+    hal/cortex_m hal/cortex_m/loaded hal/microbit hal/mps2 hal/netduinoplus2 hal/nucleo_g474re
+    hal/pico hal/template)
 sonoglide_drivers(riscv FLAGS --target=riscv32-unknown-elf -march=rv32imac -mabi=ilp32
   FOLDERS hal/semihosting hal/riscv hal/riscv_virt)

@@ -1,11 +1,11 @@
-/// From an amplitude to the pulses of a bridge.
+/// From an amplitude to the pulses of a full bridge.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-namespace sonoglide::hal::pico {
+namespace sonoglide::hal {
 
 namespace detail {
 
@@ -44,23 +44,21 @@ inline constexpr auto half_width_table = half_widths();
 
 }  // namespace detail
 
-/// Compare values of both outputs of a slice that counts from 0 to half a carrier period less one and
-/// down again. A is high within w counts of 0, and B, which is inverted, within w of the top: a pulse of
-/// either sign in each carrier period, half a period apart. The voltage between the legs of the bridge then
+/// Half of the width of the pulses of a bridge that is driven by one pulse of either sign in each carrier
+/// period, half a period apart and centred on the drive's phases 0 and pi. The voltage between the legs then
 /// has no even harmonic, and a fundamental of
 ///
 ///   sin(pi w / half_period) of full scale, which is 4/pi of the supply; its phase is always 0.
 ///
-/// @param amplitude    code, 0 … 2^31 - 1; reached within 1/2048 + pi / (2 half_period) of full scale
+/// @param amplitude    code, 0 … 2^31; reached within 1/2048 + pi / (2 half_period) of full scale
 /// @param half_period  clocks, below 2^16
-constexpr std::uint32_t pulses_of(std::int32_t amplitude, std::uint32_t half_period) {
+/// @return w, clocks
+constexpr std::uint32_t half_width_of(std::uint32_t amplitude, std::uint32_t half_period) {
   constexpr unsigned unused = 31 - detail::table_bits;
-  const std::uint32_t index =
-      (static_cast<std::uint32_t>(amplitude) + (1U << (unused - 1))) >> unused;
+  const std::uint32_t index = (amplitude + (1U << (unused - 1))) >> unused;
   const std::uint32_t width = detail::half_width_table[index];
-  const std::uint32_t clocks =
-      (width * half_period + (1U << (detail::width_bits - 1))) >> detail::width_bits;
-  return clocks | (half_period - clocks) << 16;
+  // A tie is rounded down: both legs together are high for a period at most.
+  return (width * half_period + (1U << (detail::width_bits - 1)) - 1) >> detail::width_bits;
 }
 
-}  // namespace sonoglide::hal::pico
+}  // namespace sonoglide::hal

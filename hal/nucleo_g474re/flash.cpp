@@ -1,0 +1,76 @@
+// Source: ST, RM0440, embedded flash memory: page erase, standard programming, error code correction.
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/nucleo_g474re/board.hpp"
+#include "hal/start/image_end.hpp"
+
+namespace sonoglide::hal::nucleo_g474re {
+namespace {
+
+extern "C" volatile std::uint32_t parameter_pages[2][Flash::page_words]
+                                                 [2];  // address from memory.ld
+
+constexpr std::uint32_t first_key = 0x45670123;
+constexpr std::uint32_t second_key = 0xcdef89ab;
+constexpr std::uint32_t programming = 1U << 0;
+constexpr std::uint32_t erasing = 1U << 1;
+constexpr unsigned page_position = 3;
+constexpr std::uint32_t first_page = 126;
+constexpr std::uint32_t in_second_bank = 1U << 11;
+constexpr std::uint32_t start = 1U << 16;
+constexpr std::uint32_t locked = 1U << 31;
+constexpr std::uint32_t working = 1U << 16;
+constexpr std::uint32_t every_error = 0xc3fb;  // a set bit clears it
+constexpr std::uint32_t unreadable = 1U << 31;
+
+void unlock() {
+  // A key that it does not ask for locks it until a reset.
+  if ((flash_control.control & locked) != 0) {
+    flash_control.key = first_key;
+    flash_control.key = second_key;
+  }
+  flash_control.status = every_error;
+}
+
+}  // namespace
+
+std::uint32_t Flash::read(std::size_t page, std::size_t word) const {
+  return parameter_pages[page][word][0];
+}
+
+void Flash::erase(std::size_t page) {
+  unlock();
+  const std::uint32_t order =
+      erasing | in_second_bank | (first_page + static_cast<std::uint32_t>(page)) << page_position;
+  flash_control.control = order;
+  flash_control.control = order | start;
+}
+
+// The flash takes 64 bits at a time.
+void Flash::program(std::size_t page, std::size_t word, std::uint32_t value) {
+  unlock();
+  flash_control.control = programming;
+  parameter_pages[page][word][0] = value;
+  parameter_pages[page][word][1] = value;
+}
+
+bool Flash::busy() const {
+  if ((flash_control.status & working) != 0) {
+    return true;
+  }
+  flash_control.control = locked;
+  return false;
+}
+
+}  // namespace sonoglide::hal::nucleo_g474re
+
+/// A word that a power cut spoilt has more errors than can be corrected. It reads as anything, and its
+/// checksum then tells; the reading goes on.
+extern "C" void take_non_maskable_interrupt() {
+  using namespace sonoglide::hal::nucleo_g474re;
+  if ((flash_control.correction & unreadable) == 0) {
+    take_exception();
+  }
+  flash_control.correction = unreadable;
+}

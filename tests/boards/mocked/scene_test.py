@@ -1,0 +1,52 @@
+"""The image of a scene meets the samples of the workstation's run and answers with the same commands, bit for
+bit; the bridge makes each amplitude.
+
+Usage: scene_test.py BOARD IMAGE.elf TRACE MOST   (MOST: instructions of a step, its interrupt included)
+"""
+import importlib
+import math
+import random
+import struct
+import sys
+
+
+def read(file):
+    with open(file, encoding="ascii") as lines:
+        return [[int(word) for word in line.split()] for line in lines]
+
+
+def main():
+    name, image, trace, most = sys.argv[1:]
+    board_of = importlib.import_module(name)
+    board = board_of.Board(image)
+    board.start()
+    dice = random.Random(1)
+    counts = []
+    farthest = 0.0
+    for number, step in enumerate(read(trace)):
+        force, velocity, force_at_rail, fresh, velocity_at_rail, *rest = step
+        assert fresh, "a period without a sample is tested in unit_test.py"
+        conversions = [board_of.conversions_of(force), board_of.conversions_of(velocity)]
+        for codes, at_rail in zip(conversions, (force_at_rail, velocity_at_rail)):
+            if at_rail:
+                codes[3] = 4095 if sum(codes) > len(codes) * 2048 else 0
+        expected = rest
+        if len(rest) > 6:  # with a vibration sensor
+            in_phase, quadrature, *expected = rest
+            conversions.append(board_of.vibration_of(in_phase, quadrature, dice))
+        counts.append(board.period(*conversions))
+        assert counts[-1] is not None, "the interrupt does not return"
+        layout = "<ii4Bi" if len(expected) > 6 else "<ii4B"
+        answer = list(struct.unpack(layout, board.uc.mem_read(board.symbols["last_answer"], struct.calcsize(layout))))
+        assert answer == expected, f"step {number}: {answer} in place of {expected}"
+        farthest = max(farthest, abs(board.written_amplitude() - answer[0] / 2**31))
+        assert farthest <= 1 / 2048 + math.pi / (2 * board.half_period()), f"an amplitude is off by {farthest}"
+    counts.sort()
+    median = counts[len(counts) // 2]
+    print(f"{len(counts)} periods: every command is the workstation's; a step takes {counts[0]} instructions at "
+          f"least, {median} in the median, {counts[-1]} at most; amplitudes within {farthest:.5f}")
+    assert median <= int(most), f"a step takes {median} instructions"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+"""What an image reads and writes until its carrier interrupts, against a list that somebody has looked through
+with the reference manual in hand.
+
+Usage: start_test.py BOARD IMAGE.elf GOLDEN [--write]
+"""
+import importlib
+import itertools
+import sys
+
+
+def names_of(board):
+    """Of the peripherals in the board's linker script, by address."""
+    return sorted((value, name) for name, value in board.symbols.items() if value in board.peripheral_space)
+
+
+def shown(board, value):
+    """An address of the image's memory by its name: it is no property of the board."""
+    named = [name for name, at in board.symbols.items() if at == value and name != "$d"]
+    return named[0] if value in board.memory_space and named else f"{value:#010x}"
+
+
+def listed(board):
+    names = names_of(board)
+    while board.accesses[-1][0] == "read":  # of what follows the start
+        board.accesses.pop()
+    for (kind, address, value), repeats in itertools.groupby(board.accesses):
+        base, name = max((entry for entry in names if entry[0] <= address), default=(0, "processor"))
+        if address - base >= 0x100:
+            base, name = 0, "processor"
+        again = len(list(repeats))
+        yield f"{kind} {name}+{address - base:#x} {shown(board, value)}" + (f" times {again}" if again > 1 else "")
+
+
+def main():
+    name, image, golden, *write = sys.argv[1:]
+    board = importlib.import_module(name).Board(image)
+    board.accesses = []
+    board.start()
+    text = "\n".join(listed(board)) + "\n"
+    if write:
+        with open(golden, "w", encoding="ascii") as file:
+            file.write(text)
+        return
+    with open(golden, encoding="ascii") as file:
+        expected = file.read()
+    for number, (line, other) in enumerate(itertools.zip_longest(expected.splitlines(), text.splitlines()), 1):
+        assert line == other, f"{golden}:{number}: {line}; the image: {other}"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,159 @@
+"""A unit on a mocked board: under orders of its host it drives, and whatever goes wrong, its legs are low.
+
+Usage: unit_test.py BOARD IMAGE.elf
+"""
+import importlib
+import struct
+import sys
+
+from link import READ_PARAMETER, RESTART, STOP, TARGET, WRITE_PARAMETER, Link
+from machine import HARD_FAULT
+
+DRIVE_LIMIT = 1
+STATE_OFF, STATE_FAULT = 0, 4
+MISSING, SATURATED, STALLED, WATCHDOG_RESET = 17, 18, 34, 33
+IN_MAIN = 400  # instructions between two steps
+
+board_of = importlib.import_module(sys.argv[1])
+
+
+class Unit:
+    """With a contact whose friction falls as the drive rises, as timed::StandInContact."""
+
+    def __init__(self, prepare=lambda board: None):
+        self.board = board_of.Board(sys.argv[2])
+        prepare(self.board)
+        self.board.start()
+        self.link = Link(self.board, self.period)
+        self.friction = 0.5
+        self.dice = 1
+        self.counts = []
+
+    def codes(self):
+        amplitude = abs(self.board.written_amplitude()) if self.board.driven() else 0
+        self.friction += ((0.05 / amplitude if amplitude > 0.1 else 0.5) - self.friction) / 2
+        self.dice = self.dice * 1103515245 + 12345 & 0x7FFFFFFF
+        force = min(round(2048 + 2048 * self.friction) + (self.dice >> 16) % 41 - 20, 4000)
+        return [force] * board_of.CONVERSIONS, [2048 + 205] * board_of.CONVERSIONS
+
+    def period(self, in_main=IN_MAIN, change=lambda force, velocity: None):
+        force, velocity = self.codes()
+        change(force, velocity)
+        self.counts.append(self.board.period(force, velocity))
+        assert self.counts[-1] is not None, "the interrupt does not return"
+        if in_main:
+            self.board.run(in_main)
+
+    def periods(self, count, **options):
+        for _ in range(count):
+            self.period(**options)
+
+    def drive(self):
+        assert not self.link.ask(TARGET, struct.pack("<I", 400_000))[0]
+        assert not self.link.ask(RESTART)[0]
+        self.periods(200)
+        assert self.board.driven(), f"the unit does not drive: {self.link.telemetry()}"
+
+    def fails(self, fault):
+        assert not self.board.driven(), "a leg is driven"
+        self.periods(20)
+        shown = self.link.telemetry()
+        assert (shown["state"], shown["fault"]) == (STATE_FAULT, fault), shown
+        assert not self.board.driven()
+
+
+def orders():
+    unit = Unit()
+    shown = unit.link.telemetry()
+    assert (shown["state"], shown["parameters"], shown["amplitude"]) == (STATE_OFF, 1, 0), shown
+    assert not unit.board.driven()
+    unit.drive()
+    driven = sorted(unit.counts[-100:])
+    assert not unit.link.ask(STOP)[0]
+    unit.periods(2)
+    assert not unit.board.driven()
+    print(f"a step of the unit while it drives: {driven[0]} instructions at least, {driven[50]} in the median, "
+          f"{driven[-1]} at most; under orders {max(unit.counts)} at most")
+    return unit
+
+
+def external_fault(unit):
+    unit.drive()
+    unit.board.hold_fault(True)
+    assert not unit.board.driven(), "the timer does not hold the legs low"
+    unit.period()
+    unit.fails(MISSING)
+    unit.link.ask(RESTART)
+    unit.periods(50)
+    assert not unit.board.driven(), "a restart overcomes the fault's line"
+    unit.board.hold_fault(False)
+    unit.periods(50)
+    assert not unit.board.driven(), "it drives again by itself"
+    unit.drive()
+
+
+def bad_conversions(unit):
+    def one(code):
+        def change(force, _):
+            force[5] = code
+        return change
+
+    for code in (0, 4095):
+        unit.drive()
+        unit.period(change=one(code))
+        unit.fails(SATURATED)
+    unit.drive()
+    unit.board.lose_conversions = True
+    unit.period()
+    unit.board.lose_conversions = False
+    unit.fails(MISSING)
+
+
+def parameters(unit):
+    unit.link.ask(STOP)
+    unit.periods(20)
+    assert not unit.link.ask(WRITE_PARAMETER, struct.pack("<BI", DRIVE_LIMIT, 765_432))[0]
+    stored = unit.board.parameters()
+
+    def same(board):
+        board.store(stored)
+
+    again = Unit(same)
+    payload = again.link.ask(READ_PARAMETER, struct.pack("<B", DRIVE_LIMIT))[1]
+    assert struct.unpack_from("<I", payload, 2) == (765_432,), payload
+    assert again.link.telemetry()["parameters"] == 0
+
+
+def hung_service(unit):
+    unit.drive()
+    while unit.board.driven():
+        unit.period(in_main=0)
+        assert unit.board.carrier_periods < 1_000_000
+    started = unit.board.carrier_periods
+    while not unit.board.reset_by_watchdog():
+        unit.period(in_main=0)
+        assert unit.board.carrier_periods < started + 8_000, "the watchdog does not reset"
+        assert not unit.board.driven()
+
+    again = Unit(lambda board: board.tell_watchdog_reset())
+    shown = again.link.telemetry()
+    assert (shown["state"], shown["fault"]) == (STATE_FAULT, WATCHDOG_RESET), shown
+    assert not again.board.driven()
+
+
+def exceptions(unit):
+    unit.drive()
+    unit.board.check_other_exceptions()
+    assert unit.board.driven()
+    assert unit.board.take(HARD_FAULT) is None, "a hard fault returns"
+    assert not unit.board.driven(), "a leg is driven after a hard fault"
+
+
+if __name__ == "__main__":
+    served = orders()
+    external_fault(served)
+    bad_conversions(served)
+    parameters(served)
+    hung_service(served)
+    fresh = Unit()
+    exceptions(fresh)
