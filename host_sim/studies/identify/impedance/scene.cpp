@@ -17,7 +17,7 @@ const Estimate& estimate_of(const Identification& identification, const std::str
 /// A line of [tolerance]; none where the interval has no width or an end is open.
 std::string tolerance_line(const std::string& key, double low, double high) {
   return low < high && std::isfinite(low) && std::isfinite(high)
-             ? fmt::format("\"{}\" = {{ range = [{:.17g}, {:.17g}] }}\n", key, low, high)
+             ? fmt::format("\"{}\" = {{ range = [{:.15g}, {:.15g}] }}\n", key, low, high)
              : std::string();
 }
 
@@ -68,26 +68,26 @@ std::string scene_toml(const ImpedanceStudy& study) {
 # Given by hand: {}.
 # Assumed, since no sweep tells it: contact, sliding, amplifier and targets.
 [plant]
-mass_kg = {:.17g}
-stiffness_N_per_m = {:.17g}
-damping_N_s_per_m = {:.17g}
+mass_kg = {:.15g}
+stiffness_N_per_m = {:.15g}
+damping_N_s_per_m = {:.15g}
 
 [friction]
 law = "dahl"
-coefficient = {:.17g}               # assumed
+coefficient = {:.15g}               # assumed
 normal_force_N = {:.6g}             # assumed: friction a tenth of the damping at 0.05 m/s
 contact_stiffness_N_per_m = {:.6g}  # assumed: Dahl number 10 there
 
 [sliding]
-velocity_m_per_s = {:.17g}          # assumed
+velocity_m_per_s = {:.15g}          # assumed
 
 [transducer]
-force_factor_N_per_V = {:.17g}
-clamped_capacitance_F = {:.17g}
-loss_tangent = {:.17g}{}
+force_factor_N_per_V = {:.15g}
+clamped_capacitance_F = {:.15g}
+loss_tangent = {:.15g}{}
 
 [drive]
-frequency_Hz = {:.17g}
+frequency_Hz = {:.15g}
 max_voltage_amplitude_V = {:.6g}    # assumed: four times what 0.05 m/s takes
 
 [run]
