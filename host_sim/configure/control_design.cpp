@@ -26,9 +26,18 @@ static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, Feedfo
               std::is_same_v<DesignOf<scene::VibrationMode::damped>, DampedDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::resonant>, ResonantDesign>);
 
-/// @throws ConfigurationError  the sensor does not read a force that is the target
+/// Between two codes, of full scale; 0 in floating point.
+double resolution(scene::Arithmetic arithmetic) {
+  return arithmetic == scene::Arithmetic::q15   ? 0x1p-15
+         : arithmetic == scene::Arithmetic::q31 ? 0x1p-31
+                                                : 0.0;
+}
+
+/// @throws ConfigurationError  the sensor does not read a force that is the target, or the controller
+///         takes it for 0
 void require_readable_targets(const scene::Scene& scene, const ControlDesign& design) {
   const scene::Controller& controller = *scene.controller;
+  const double least_N = design.scales.force_N * resolution(controller.arithmetic);
   for (const double target : controller.target_values()) {
     if (controller.holds_force() && !(target < design.scales.force_N)) {
       throw ConfigurationError(
@@ -36,6 +45,14 @@ void require_readable_targets(const scene::Scene& scene, const ControlDesign& de
           fmt::format(
               "{:g} N is not below sensor.force_full_scale_N, {:g} N; allowed: at most {} N",
               target, design.scales.force_N, scene::at_most(design.scales.force_N)));
+    }
+    if (controller.holds_force() && target < least_N) {
+      throw ConfigurationError(
+          fmt::format("controller.{}", controller.target_key()),
+          fmt::format(
+              "{:g} N is less than the controller's arithmetic resolves of a force, {:.3g} N; "
+              "allowed: at least {} N",
+              target, least_N, scene::at_least(least_N)));
     }
   }
 }

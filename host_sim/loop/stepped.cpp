@@ -116,6 +116,7 @@ void SteppedScene::show_plant(const PlantPeriod& period) {
     plant_outputs_.vibration_quadrature_m_per_s = period.vibration_m_per_s.imag();
   }
   plant_outputs_.friction_ratio = std::isnan(period.friction_ratio) ? 0.0 : period.friction_ratio;
+  plant_outputs_.resistance_N = std::isnan(period.friction_force_N) ? 0.0 : period.friction_force_N;
   const PlantState state = engine_.plant()->state();
   plant_outputs_.displacement_m = state.displacement_m;
   plant_outputs_.velocity_m_per_s = state.velocity_m_per_s;

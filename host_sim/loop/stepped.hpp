@@ -40,6 +40,7 @@ struct PlantOutputs {
   double vibration_in_phase_m_per_s = 0.0;
   double vibration_quadrature_m_per_s = 0.0;
   double friction_ratio = 0.0;  ///< of the period; 0 where there is no friction to relate it to
+  double resistance_N = 0.0;    ///< mean friction along the sliding; 0 likewise
   double displacement_m = 0.0;
   double velocity_m_per_s = 0.0;
   double friction_force_N = 0.0;

@@ -28,11 +28,11 @@ namespace {
 const configure::Experiment& usable(const configure::Experiment& experiment) {
   loop::require_usable(experiment.plant, loop::Kind::loop);
   loop::require_constant_carrier(experiment.plant);
-  const std::optional<scene::Controller>& controller = experiment.plant.controller;
-  if (controller && (controller->holds_force() || controller->texture)) {
+  if (experiment.plant.controller->texture) {
     throw configure::ConfigurationError(
-        fmt::format("controller.{}", controller->target_key()),
-        "a Loop wants friction ratios and rewards them; allowed: target_friction_ratio");
+        "controller.target_texture",
+        "a Loop is given its targets step by step; allowed: target_friction_ratio or "
+        "target_friction_force_N");
   }
   return experiment;
 }
@@ -58,31 +58,60 @@ class Loop {
     own = seed.value_or(own);
     engine_ = std::make_unique<loop::SteppedScene>(experiment_, loop::Kind::loop);
     periods_ = 0;
-    wanted_ratio_ = coming_ratio();
+    load_force_N_ = 0.0;
+    wanted_ = coming();
   }
 
   /// One carrier period.
-  /// @param target  friction ratio in (0, 1] that the controller is given; 0: as before, at the
-  ///                beginning the scene's steps
+  /// @param target  that the controller is given, above 0, at most highest_target(); absent: as before,
+  ///                at the beginning the scene's steps
   /// @throws loop::ComputationError, std::invalid_argument  the target is out of range
-  void step(double target) {
-    if (!(target >= 0.0 && target <= 1.0)) {
-      throw std::invalid_argument(fmt::format(
-          "target is {}; allowed: a friction ratio above 0, at most 1, or None", target));
+  void step(std::optional<double> target) {
+    if (target && !(*target > 0.0 && *target <= highest_target())) {
+      throw std::invalid_argument(
+          holds_force()
+              ? fmt::format(
+                    "target is {}; allowed: a friction force above 0, at most {} N, or None",
+                    *target, highest_target())
+              : fmt::format("target is {}; allowed: a friction ratio above 0, at most 1, or None",
+                            *target));
     }
     loop::Inputs inputs;
-    inputs.target = target;
-    wanted_ratio_ = coming_ratio();
+    inputs.target = target.value_or(0.0);
+    inputs.load_force_N = load_force_N_;
+    wanted_ = coming();
     engine_->advance(inputs);
     ++periods_;
   }
 
+  /// On the load, beside that of the scene, from the next step on; 0 until it is set.
+  double load_force_N() const { return load_force_N_; }
+  /// @throws std::invalid_argument  the scene has no load, or the force is not finite
+  void set_load_force_N(double force_N) {
+    if (!has_load()) {
+      throw std::invalid_argument("load_force_N: the scene has no load; required: a table [load]");
+    }
+    if (!std::isfinite(force_N)) {
+      throw std::invalid_argument(
+          fmt::format("load_force_N is {}; allowed: a finite force [N]", force_N));
+    }
+    load_force_N_ = force_N;
+  }
+
   const loop::SteppedScene& engine() const { return *engine_; }
   double time_s() const { return static_cast<double>(periods_) * period_s_; }
-  /// Of the scene, for the period that was stepped last.
-  double wanted_ratio() const { return wanted_ratio_; }
-  /// Of the scene, for the period that comes next.
-  double coming_ratio() const {
+  /// The targets are forces [N]; else friction ratios.
+  bool holds_force() const { return experiment_.plant.controller->holds_force(); }
+  bool has_load() const { return experiment_.plant.load.has_value(); }
+  double highest_target() const { return experiment_.plant.highest_target(); }
+  /// Friction ratio of the period that was stepped last, or mean friction along the sliding [N].
+  double held() const {
+    return holds_force() ? engine_->plant().resistance_N : engine_->plant().friction_ratio;
+  }
+  /// Target of the scene, for the period that was stepped last.
+  double wanted() const { return wanted_; }
+  /// Target of the scene, for the period that comes next.
+  double coming() const {
     const auto every = static_cast<std::uint64_t>(experiment_.plant.controller->every_periods);
     double wanted = schedule_.front().target;
     for (const loop::ScheduledTarget& each : schedule_) {
@@ -107,7 +136,7 @@ class Loop {
 
  private:
   void copy_state(loop::StateCopy& copy) {
-    copy(periods_, wanted_ratio_);
+    copy(periods_, wanted_, load_force_N_);
     engine_->copy_state(copy);
   }
 
@@ -117,7 +146,8 @@ class Loop {
   std::vector<loop::ScheduledTarget> schedule_;
   std::unique_ptr<loop::SteppedScene> engine_;
   std::uint64_t periods_ = 0;
-  double wanted_ratio_ = 0.0;
+  double wanted_ = 0.0;
+  double load_force_N_ = 0.0;
 };
 
 constexpr std::array observation_names = {"friction_ratio",           "drive_force_amplitude_N",
@@ -139,9 +169,13 @@ py::dict info_of(const Loop& loop) {
   const loop::SteppedScene& engine = loop.engine();
   py::dict info;
   info["time_s"] = loop.time_s();
-  info["wanted_friction_ratio"] = loop.wanted_ratio();
-  info["coming_friction_ratio"] = loop.coming_ratio();
+  const char* const held = loop.holds_force() ? "friction_force_N" : "friction_ratio";
+  info[py::str(fmt::format("wanted_{}", held))] = loop.wanted();
+  info[py::str(fmt::format("coming_{}", held))] = loop.coming();
   info["mean_friction_force_N"] = engine.plant().mean_friction_force_N;
+  if (loop.has_load()) {
+    info["load_displacement_m"] = engine.plant().load_displacement_m;
+  }
   add_answer(info, engine.controller().answer);
   return info;
 }
@@ -152,14 +186,9 @@ py::tuple reset(Loop& loop, std::optional<std::uint64_t> seed, const py::object&
 }
 
 py::tuple step(Loop& loop, const std::optional<double>& target) {
-  if (target && !(*target > 0.0)) {
-    throw py::value_error(fmt::format(
-        "target is {}; allowed: a friction ratio above 0, at most 1, or None", *target));
-  }
-  loop.step(target.value_or(0.0));
-  const loop::SteppedScene& engine = loop.engine();
-  const double reward = -std::abs(engine.plant().friction_ratio - loop.wanted_ratio());
-  const bool terminated = engine.controller().answer.fault != 0;
+  loop.step(target);
+  const double reward = -std::abs(loop.held() - loop.wanted());
+  const bool terminated = loop.engine().controller().answer.fault != 0;
   return py::make_tuple(observation_of(loop), reward, terminated, loop.over(), info_of(loop));
 }
 
@@ -179,15 +208,23 @@ void add_loop(py::module_& module) {
   loop.def("step", &step, py::arg("target") = py::none(),
            "step(self, target=None)\n--\n\n"
            "One carrier period. -> observation, reward, terminated, truncated, info\n\n"
-           "target  friction ratio that the controller is given, above 0, at most 1; None: as\n"
-           "        before, and until the first one the steps of the scene\n\n"
-           "reward      -|friction ratio of the period - the one that the scene wants|\n"
+           "target  friction ratio that the controller is given, above 0, at most 1; of a scene\n"
+           "        with target_friction_force_N a force [N], at most sensor.force_full_scale_N;\n"
+           "        None: as before, and until the first one the steps of the scene\n\n"
+           "reward      -|friction ratio of the period - the one that the scene wants|; of target\n"
+           "            forces -|mean friction force along the sliding - the wanted one| [N]\n"
            "terminated  a fault has switched the drive off\n"
            "truncated   the duration of the scene is over\n"
            "info        time_s, what the scene wants of this period and of the coming one, the\n"
-           "            mean friction force of the period, and the controller's answer:\n"
-           "            amplitude_code (2**31 is the actuator's limit), commanded_ratio_code\n"
-           "            (2**31 is a ratio of 2), state, limit, fault, settling");
+           "            mean friction force of the period, of a scene with a load its\n"
+           "            displacement, and the controller's answer: amplitude_code (2**31 is the\n"
+           "            actuator's limit), commanded_ratio_code (2**31 is a ratio of 2), state,\n"
+           "            limit, fault, settling");
+  loop.def_property(
+      "load_force_N", &Loop::load_force_N, &Loop::set_load_force_N,
+      "Force on the load from the next step on [N], beside that of the scene and\n"
+      "along the sliding; 0 after reset(). Of a scene without a load it is 0 and cannot\n"
+      "be set.");
   loop.def(
       "observe",
       [](const Loop& self) { return py::make_tuple(observation_of(self), info_of(self)); },

@@ -118,6 +118,10 @@ class RunFindings {
   /// Of a loop that learns the friction force anew.
   report::PauseMetrics pauses() const;
   std::optional<double> largest_tracking_error() const;
+  /// In open loop, and without a calibration, an empty range.
+  CalibrationMetrics calibration() const {
+    return step_meter_ ? step_meter_->calibration() : CalibrationMetrics();
+  }
   const Course& course() const { return course_; }
   /// Null without a texture.
   const TextureMeter* texture() const { return texture_meter_ ? &*texture_meter_ : nullptr; }

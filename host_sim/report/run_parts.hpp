@@ -21,6 +21,9 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
 std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunResult& result,
                                      const RunFindings& findings);
 
+/// Where the controller has learnt its friction force from one that was not steady.
+std::vector<std::string> calibration_notes(const RunFindings& findings);
+
 // Of a texture, in place of steps.
 
 /// An entry for each harmonic.

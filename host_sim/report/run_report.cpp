@@ -112,6 +112,10 @@ ordered_json step(const report::StepMetrics& metrics, const TargetUnit& target,
       {"limit_seen_by", limit_seen_by(metrics)},
       {"cause", cause(metrics)},
       {"mismatch", output::json_number(metrics.mismatch)}};
+  if (metrics.least_friction) {
+    json["least_friction"] = {{"ratio", metrics.least_friction->ratio},
+                              {"vibration_m_per_s", metrics.least_friction->vibration_m_per_s}};
+  }
   add_vibration(metrics, json);
   return json;
 }
@@ -393,6 +397,9 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
         "friction force learnt with the drive off until {:.3f} ms: the first settling time counts "
         "from there\n",
         calibration_s * 1e3);
+  }
+  for (const std::string& note : calibration_notes(findings)) {
+    text += fmt::format("WARNING: {}\n", note);
   }
   if (const TextureMeter* texture = findings.texture()) {
     return text + texture_lines(scene, *texture) + learning_lines(result, findings);

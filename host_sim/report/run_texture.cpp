@@ -23,8 +23,10 @@ std::string number_text(const TextureHarmonic& each) {
   return is_mean(each) ? "mean" : fmt::format("{}", each.harmonic);
 }
 
+/// A harmonic that is not wanted has no place.
 std::string lag_text(const TextureHarmonic& each) {
-  return is_mean(each) ? "-" : figure("{:.1f}", each.lag_deg());
+  constexpr double least = 1e-6;
+  return is_mean(each) || std::abs(each.wanted) < least ? "-" : figure("{:.1f}", each.lag_deg());
 }
 
 /// Not the sign of a mean: it is above 0.

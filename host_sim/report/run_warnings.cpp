@@ -84,6 +84,20 @@ void append_unsettled(const scene::Scene& scene, const RunFindings& findings,
 
 }  // namespace
 
+std::vector<std::string> calibration_notes(const RunFindings& findings) {
+  constexpr double steady = 0.05;
+  const CalibrationMetrics seen = findings.calibration();
+  if (!(seen.highest - seen.lowest > steady)) {
+    return {};
+  }
+  return {fmt::format(
+      "While the friction force was learnt with the drive off, the friction was {:.3g} to {:.3g} times "
+      "that of steady sliding: the contact sticks and slips, or has not slid through its presliding "
+      "travel yet. What is learnt is not its level. Without controller.calibration_s the scene's is "
+      "trusted.",
+      seen.lowest, seen.highest)};
+}
+
 std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::RunResult& result,
                                       const RunFindings& findings) {
   std::vector<std::string> all;
@@ -97,6 +111,9 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   }
   if (!result.control) {
     return all;
+  }
+  for (std::string& note : calibration_notes(findings)) {
+    all.push_back(std::move(note));
   }
   append_unsettled(scene, findings, all);
   if (const TextureMeter* texture = findings.texture()) {

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "host_sim/loop/plant/sliding_profile.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/self_excitation.hpp"
 #include "host_sim/scene/friction_laws.hpp"
@@ -28,6 +30,13 @@ control::Limit prevailing_limit(std::array<std::uint64_t, control::limit_count> 
                     : static_cast<control::Limit>(std::distance(count.begin(), most));
 }
 
+/// Of a contact whose friction may rise again under more vibration, and whose closed form holds.
+bool may_have_least_friction(const scene::Scene& scene) {
+  return !scene.load && scene.profile_key() == nullptr &&
+         scene.drive->waveform == scene::Waveform::cosine &&
+         scene::friction_map(scene.friction.law) == scene::FrictionMap::tabulated;
+}
+
 }  // namespace
 
 StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& design)
@@ -39,7 +48,10 @@ StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& 
       observes_vibration_(scene.sensor.vibration),
       resonant_(scene.resonant()),
       may_excite_itself_(may_excite_itself(scene) ? std::optional(scene) : std::nullopt),
-      largest_current_A_(scene.drive->max_current_amplitude_A) {
+      has_least_friction_(may_have_least_friction(scene) ? std::optional(scene) : std::nullopt),
+      largest_current_A_(scene.drive->max_current_amplitude_A),
+      learning_from_s_(0.5 * scene.controller->calibration_s.value_or(0.0)),
+      learning_until_s_(scene.controller->calibration_s.value_or(0.0)) {
   for (const TargetSpan& span : cursor_.spans()) {
     Tally tally;
     tally.settled_s = span.begin_s;
@@ -49,6 +61,11 @@ StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& 
 }
 
 void StepMeter::take(const loop::Period& period) {
+  if (period.begin_s >= learning_from_s_ && period.end_s <= learning_until_s_ &&
+      std::isfinite(period.friction_ratio)) {
+    calibration_.lowest = std::min(calibration_.lowest, period.friction_ratio);
+    calibration_.highest = std::max(calibration_.highest, period.friction_ratio);
+  }
   const std::size_t index = cursor_.span_of(period);
   if (index == SpanCursor::none) {
     return;
@@ -180,10 +197,13 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   if (!settled) {
     name_self_excitation(span, metrics);
   }
-  name_passed_bound(tally, metrics);
   if (observes_vibration_) {
     metrics.vibration = vibration_metrics(span, tally);
   }
+  if (!settled) {
+    name_least_friction(span, metrics);
+  }
+  name_passed_bound(tally, metrics);
   if (resonant_) {
     metrics.resonance = resonance_metrics(tally);
   }
@@ -216,6 +236,49 @@ void StepMeter::name_self_excitation(const TargetSpan& span, StepMetrics& metric
   }
 }
 
+void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics) const {
+  const bool other_cause = metrics.limit == control::Limit::none ||
+                           metrics.limit == control::Limit::self_excited ||
+                           !(metrics.steady_error > band_);
+  if (other_cause || !has_least_friction_) {
+    return;
+  }
+  const scene::Scene& scene = *has_least_friction_;
+  const double sliding_m_per_s =
+      std::abs(loop::SlidingProfile(scene.sliding).velocity_m_per_s(span.quarter_s));
+  if (!(sliding_m_per_s > 0.0)) {
+    return;
+  }
+  // From target and band, which are over the friction limit if they are of a force, to ratios.
+  const double to_ratio =
+      unit_.is_force() ? unit_.size / scene::undriven_friction_N(scene.friction.law, scene.friction,
+                                                                 sliding_m_per_s)
+                       : 1.0;
+  const double target = span.target * to_ratio;
+  if (!(target < 1.0)) {
+    return;
+  }
+  const steady::RequiredVibration needed =
+      steady::closed_form_vibration(scene, sliding_m_per_s, target);
+  const double full_m_per_s = scene.max_drive_force_N() / steady::force_N(scene, 1.0);
+  const double mean_m_per_s = metrics.vibration
+                                  ? metrics.vibration->velocity_m_per_s
+                                  : metrics.drive_amplitude_N / steady::force_N(scene, 1.0);
+  constexpr double clearly = 1.05;
+  const bool below_target = needed.friction_ratio <= target + band_ * to_ratio;
+  const bool passed = mean_m_per_s > clearly * needed.velocity_m_per_s;
+  if (needed.velocity_m_per_s > full_m_per_s || (below_target && !passed)) {
+    return;
+  }
+  metrics.least_friction = {needed.friction_ratio, needed.velocity_m_per_s, below_target};
+  if (metrics.limit == control::Limit::not_settling || metrics.limit == control::Limit::mismatch) {
+    metrics.limit = resonant_ ? control::Limit::voltage : control::Limit::actuator;
+    metrics.cause = control::Settling::pending;
+    metrics.limit_seen_by_controller = false;
+    metrics.controller_undecided = false;
+  }
+}
+
 void StepMeter::name_passed_bound(const Tally& tally, StepMetrics& metrics) const {
   const bool above =
       largest_current_A_ && tally.current_A > told_current_excess * *largest_current_A_;
@@ -223,6 +286,7 @@ void StepMeter::name_passed_bound(const Tally& tally, StepMetrics& metrics) cons
     return;
   }
   metrics.limit = tally.open ? control::Limit::contact_lost : control::Limit::current;
+  metrics.least_friction.reset();
   metrics.cause = control::Settling::pending;
   metrics.limit_seen_by_controller = false;
   metrics.controller_undecided = false;

@@ -82,6 +82,19 @@ struct ResonanceMetrics {
   double frequency_error = 0.0;  ///< largest of it, relative to the natural frequency
 };
 
+/// The least friction that a contact has, of all vibrations.
+struct LeastFriction {
+  double ratio;
+  double vibration_m_per_s;  ///< peak, by the closed form of the law
+  bool below_target;         ///< false: no vibration brings the ratio down to its target
+};
+
+/// What the friction ratio does while the controller learns the friction with the drive off.
+struct CalibrationMetrics {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+};
+
 /// One target step, or what calibration leaves of it. "Steady" means the last quarter. A figure for
 /// which there is no carrier period is NaN. Pauses in which the controller learns the friction force
 /// anew are left out; what they cost is in PauseMetrics.
@@ -115,6 +128,10 @@ struct StepMetrics {
   /// the simulation names the limit, the steady part is ringing if it leaves the band to both sides,
   /// else offset if its mean is outside.
   control::Settling cause = control::Settling::pending;
+  /// Of a step that never settles, whose ratio stays above its target though no more drive lowers it: no
+  /// vibration does, or the drive has passed the one that gives the least friction. The limit is then that
+  /// of the drive.
+  std::optional<LeastFriction> least_friction;
   /// Mean of commanded over target ratio where the controller took the ratio for settled: believed
   /// over true friction force, as it sees it.
   std::optional<double> mismatch;
@@ -144,6 +161,9 @@ class StepMeter final : public loop::PeriodSink {
   std::vector<StepMetrics> steps() const;
 
   PauseMetrics pauses() const;
+
+  /// Over the second half of the calibration; the range is empty without one.
+  const CalibrationMetrics& calibration() const { return calibration_; }
 
  private:
   struct Tally {
@@ -180,6 +200,7 @@ class StepMeter final : public loop::PeriodSink {
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
   void name_unseen_limit(const TargetSpan& span, const Tally& tally, StepMetrics& metrics) const;
   void name_self_excitation(const TargetSpan& span, StepMetrics& metrics) const;
+  void name_least_friction(const TargetSpan& span, StepMetrics& metrics) const;
   void name_passed_bound(const Tally& tally, StepMetrics& metrics) const;
   control::Settling true_cause(const TargetSpan& span, const Tally& tally, bool off) const;
   static VibrationMetrics vibration_metrics(const TargetSpan& span, const Tally& tally);
@@ -193,7 +214,11 @@ class StepMeter final : public loop::PeriodSink {
   bool observes_vibration_;
   bool resonant_;
   std::optional<scene::Scene> may_excite_itself_;
+  std::optional<scene::Scene> has_least_friction_;
   std::optional<double> largest_current_A_;
+  double learning_from_s_;
+  double learning_until_s_;
+  CalibrationMetrics calibration_;
   std::vector<Tally> tallies_;
   bool pausing_ = false;
   std::uint64_t pauses_ = 0;

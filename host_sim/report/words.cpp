@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware/control/interface/names.hpp"
+#include "host_sim/output/number.hpp"
 
 namespace sonoglide::report {
 
@@ -63,6 +64,12 @@ std::string limit_text(const report::StepMetrics& step) {
   }
   if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
     text += fmt::format(" ({})", settling_name(step.cause));
+  }
+  if (const auto& least = step.least_friction) {
+    text += least->below_target
+                ? fmt::format(" (past the least friction: {} of vibration give a ratio of {:.3g})",
+                              output::quantity(least->vibration_m_per_s, "m/s"), least->ratio)
+                : fmt::format(" (no vibration gives a ratio below {:.3g})", least->ratio);
   }
   constexpr double little = 0.05;  // of a friction that has been learnt
   if (step.limit == control::Limit::mismatch && step.mismatch &&

@@ -58,6 +58,9 @@ double averaged_multiplier(const scene::Scene& scene, double sliding_m_per_s,
 }
 
 double orbit_multiplier(const scene::Scene& scene, double sliding_m_per_s, double drive_force_N) {
+  if (averaged_multiplier(scene, sliding_m_per_s, drive_force_N) > largest_growth) {
+    return undefined;
+  }
   try {
     return loop::find_orbit(steady_scene(scene, sliding_m_per_s, drive_force_N), most_steps)
         .multiplier;
@@ -166,6 +169,12 @@ SteadySliding steady_sliding(const scene::Scene& scene, double sliding_m_per_s,
   return {sliding_m_per_s, drive_force_N, vibration_m_per_s(scene, drive_force_N),
           orbit_multiplier(scene, sliding_m_per_s, drive_force_N),
           averaged_multiplier(scene, sliding_m_per_s, drive_force_N)};
+}
+
+double undriven_exponent(const scene::Scene& scene, double sliding_m_per_s) {
+  const double damping =
+      scene.plant.damping_N_s_per_m + friction_slope_N_s_per_m(scene, sliding_m_per_s, 0.0);
+  return std::abs(damping) / (scene.plant.mass_kg * scene.drive->frequency_Hz);
 }
 
 std::vector<DriveWindow> drive_windows(const scene::Scene& scene, double sliding_m_per_s,

@@ -17,13 +17,18 @@ enum class Fate {
 
 const char* name(Fate fate);
 
+/// By averaging, in a carrier period: under a drive where a deviation grows by more than that, no steady
+/// motion is looked for. A search that follows the motion for a period loses it there, and takes all its
+/// steps before it says so.
+inline constexpr double largest_growth = 1e6;
+
 /// Steady sliding under a drive of constant amplitude.
 struct SteadySliding {
   double sliding_m_per_s = 0.0;
   double drive_force_N = 0.0;      ///< amplitude
   double vibration_m_per_s = 0.0;  ///< peak velocity that the force gives without a contact
   /// Largest modulus of a Floquet multiplier of the steady motion: by what a small deviation is
-  /// multiplied in a carrier period. NaN where no steady motion was found.
+  /// multiplied in a carrier period. NaN where no steady motion was found, or looked for.
   double multiplier = 0.0;
   /// The same by averaging over the drive: the mean friction is a force that changes with the sliding
   /// velocity, and the natural mode is slow and obeys m x'' + (c + dF/dVt) x' + Ks x = 0. Wrong where
@@ -44,6 +49,10 @@ bool friction_falls(const scene::Friction& friction);
 /// Error: multiplier 1e-6.
 SteadySliding steady_sliding(const scene::Scene& scene, double sliding_m_per_s,
                              double drive_force_N);
+
+/// Magnitude of the rate that friction and damper give a deviation without a drive, |c + dF/dVt|/m, times
+/// a carrier period: above some tens a carrier period is long against it.
+double undriven_exponent(const scene::Scene& scene, double sliding_m_per_s);
 
 /// A range of drives of one fate.
 struct DriveWindow {

@@ -104,7 +104,10 @@ class Run:
         text = f"<sonoglide.Run of {self.scene.name}: friction ratio {_html.shown(ratio)}"
         if self.trace_hash is None:
             return text + ">"
-        steps = self.summary["control"]["steps"]
+        control = self.summary["control"]
+        if "texture_periods" in control:
+            return f"{text}, {control['texture_periods']} periods of a texture, trace {self.trace_hash}>"
+        steps = control["steps"]
         settled = sum(step["settling_time_s"] is not None for step in steps)
         return f"{text}, {settled} of {len(steps)} steps settled, trace {self.trace_hash}>"
 
@@ -116,12 +119,16 @@ class Run:
         if self.trace_hash is None:
             return facts
         control = self.summary["control"]
+        faults = ", ".join(map(str, control["faults"])) or "none"
+        if "texture" in control:
+            names = tuple(control["texture"][-1]) if control["texture"] else ("harmonic",)
+            harmonics = [[each.get(name) for name in names] for each in control["texture"]]
+            return facts + _html.table(f"Texture; faults: {faults}", names, harmonics)
         held = ("target_force_N", "steady_error_N", "ripple_N")
         if not control["steps"] or held[0] not in control["steps"][0]:
             held = ("target", "steady_error", "ripple")
         names = ("time_s", held[0], "settling_time_s", held[1], held[2], "limit")
         steps = [[step.get(name) for name in names] for step in control["steps"]]
-        faults = ", ".join(map(str, control["faults"])) or "none"
         return facts + _html.table(f"Steps; faults: {faults}", names, steps)
 
 

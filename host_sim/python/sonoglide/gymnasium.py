@@ -24,7 +24,8 @@ ENVIRONMENT = "sonoglide/Loop-v0"
 class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     """A controller of friction whose target a policy sets, one carrier period a step.
 
-    scene  in closed loop; None: the example target_step.toml. An episode is as long as the scene.
+    scene  in closed loop, with target_friction_ratio; None: the example target_step.toml. An episode is as
+           long as the scene.
 
     action       the target friction ratio that the controller is given, in [0, 1]; what is below
                  least_target counts as that
@@ -52,6 +53,11 @@ class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def __init__(self, scene: Scene | None = None) -> None:
         self.scene = scene or Scene(scenes / "target_step.toml")
+        if "target_friction_force_N" in self.scene.values["controller"]:
+            raise ValueError(
+                "controller.target_friction_force_N: actions and rewards are friction ratios; allowed: "
+                "target_friction_ratio, or sonoglide.Loop"
+            )
         self._loop = _control.Loop(self.scene)
         unit = _control.Unit(self.scene)
         velocity = unit.velocity_full_scale_m_per_s

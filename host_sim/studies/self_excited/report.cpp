@@ -179,6 +179,12 @@ std::string undriven_text(const Study& study) {
         fmt::format(", largest Floquet multiplier of a carrier period {:.9g}", undriven.multiplier);
   }
   text += '.';
+  if (undriven.averaged_multiplier > steady::largest_growth) {
+    text += fmt::format(
+        " The friction feeds a deviation by more than {:g} in a carrier period: where it does, no steady "
+        "motion is looked for. A heavier mass or a faster drive changes that.",
+        steady::largest_growth);
+  }
   if (!study.falls) {
     text +=
         " The friction of this contact never falls with the velocity: undriven it excites nothing.";

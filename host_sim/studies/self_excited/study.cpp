@@ -1,10 +1,12 @@
 #include "host_sim/studies/self_excited/study.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/scene/bound.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::self_excited {
@@ -41,6 +43,20 @@ void require_steady_sliding(const scene::Scene& scene) {
   }
 }
 
+/// A period that is long against the friction's own time takes a solver a step for each of these.
+void require_resolved(const scene::Scene& scene, double sliding_m_per_s) {
+  constexpr double most = 100.0;
+  const double exponent = steady::undriven_exponent(scene, sliding_m_per_s);
+  if (exponent > most) {
+    throw ConfigurationError(
+        "plant.mass_kg",
+        fmt::format("{:g} kg are so light that friction changes a deviation by exp({:.3g}) in a "
+                    "carrier period; allowed: at least {} kg, or a faster drive.frequency_Hz",
+                    scene.plant.mass_kg, exponent,
+                    scene::at_least(scene.plant.mass_kg * exponent / most)));
+  }
+}
+
 std::vector<steady::SteadySliding> under_every_force(const scene::Scene& scene,
                                                      double sliding_m_per_s,
                                                      const std::vector<double>& forces_N) {
@@ -65,6 +81,7 @@ Task make_task(const scene::Scene& scene) {
     throw ConfigurationError("drive.force_amplitude_N",
                              "the map goes to four times this force; allowed: > 0");
   }
+  require_resolved(scene, speed);
   return {scene, speed, most_N};
 }
 

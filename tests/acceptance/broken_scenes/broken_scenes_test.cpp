@@ -548,6 +548,11 @@ const std::vector<BrokenScene> broken_scenes = {
      "target_friction_force_N = [[0.0, 0]]",
      "17:34: controller.target_friction_force_N[0][1]: 0 is out of range; allowed: above 0, at most "
      "1e+12 N"},
+    {"target_force_below_a_code", closed_loop,
+     "arithmetic = \"float32\"\ntarget_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
+     "arithmetic = \"q31\"\ntarget_friction_force_N = [[0.0, 1e-12]]",
+     "17:27: controller.target_friction_force_N: 1e-12 N is less than the controller's arithmetic "
+     "resolves of a force, 1.83e-11 N; allowed: at least 1.82726e-11 N"},
     {"target_force_late", closed_loop, "target_friction_ratio = [[0.0, 0.4], [0.5e-3, 0.6]]",
      "target_friction_force_N = [[1e-4, 0.01]]",
      "17:27: controller.target_friction_force_N: begins at 0.0001 s; allowed: a first time of 0 s"},

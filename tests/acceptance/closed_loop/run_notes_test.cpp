@@ -84,6 +84,39 @@ TEST(RunNotesTest, ATargetInAnUnstableWindowIsToldBeforeAndNamedAfter) {
   EXPECT_NE(told.page.find("self_excited"), std::string::npos);
 }
 
+// A cubic Stribeck contact has a least friction, here 0.0534 at 103 mm/s: feedback that finds the ratio above
+// its target has driven beyond.
+TEST(RunNotesTest, ADriveThatHasPassedTheLeastFrictionIsToldSo) {
+  const std::string contact =
+      "--set friction.law=stribeck --set friction.contact_stiffness_N_per_m= "
+      "--set friction.fall_s_per_m=0.8 "
+      "--set 'controller.target_friction_ratio=[[0, 0.5], [2e-3, 0.05]]' --set run.duration_s=4e-3 ";
+  const Told passed = run("target_step", contact + "--set friction.rise_s3_per_m3=20");
+  EXPECT_NE(passed.terminal.find("actuator (past the least friction: "), std::string::npos)
+      << passed.terminal;
+  const auto& least = passed.summary["control"]["steps"][1]["least_friction"];
+  EXPECT_NEAR(least["ratio"].get<double>(), 0.05336, 1e-5);
+  EXPECT_NEAR(least["vibration_m_per_s"].get<double>(), 0.1032, 1e-4);
+  // Without a force sensor nothing drives it there: the vibration stands at the nearest ratio.
+  const Told blind =
+      run("target_step", contact +
+                             "--set friction.rise_s3_per_m3=80 --set sensor.force=false "
+                             "--set sensor.vibration=velocity "
+                             "--set controller.vibration=damped");
+  EXPECT_NE(blind.terminal.find("actuator (no vibration gives a ratio below 0.258)"),
+            std::string::npos)
+      << blind.terminal;
+  EXPECT_TRUE(names(blind.summary, "actuator", "simulation"));
+}
+
+TEST(RunNotesTest, ACalibrationInAContactThatSticksAndSlipsIsTold) {
+  const std::string told = "times that of steady sliding";
+  const Told squealing = run("squeal", "--set controller.calibration_s=1");
+  EXPECT_NE(squealing.terminal.find(told), std::string::npos) << squealing.terminal;
+  EXPECT_NE(squealing.page.find(told), std::string::npos);
+  EXPECT_EQ(run("noisy_sensor", "").terminal.find(told), std::string::npos);
+}
+
 TEST(RunNotesTest, ABiasIsToldWithWhatItTakesAway) {
   const Told told = run("damped_step",
                         "--set drive.bias_limit_N=4 --set plant.stiffness_N_per_m=2.5e6 "

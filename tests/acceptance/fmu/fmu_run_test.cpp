@@ -46,6 +46,9 @@ const std::vector<Case> cases = {
     {"friction_profile", "friction_jump", "--set solver.tolerance=1e-6"},
     {"speed_profile", "speed_ramp", "--set solver.tolerance=1e-6"},
     {"damped", "damped_step", ""},
+    {"texture", "target_step_q31",
+     "--set solver.tolerance=1e-6 --set controller.target_friction_ratio= --set "
+     "'controller.target_texture={ period_m = 53.44e-6, ratio = [0.4, 0.6] }'"},
 };
 
 class FmuRun : public testing::TestWithParam<Case> {

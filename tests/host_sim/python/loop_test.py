@@ -118,6 +118,96 @@ def test_targets_out_of_range_are_refused(scene, target):
         loop.step(target)
 
 
+HELD_FORCE = {"controller.target_friction_ratio": None,
+              "controller.target_friction_force_N": [[0.0, 0.01], [2e-3, 0.012]]}
+LOAD = {"sliding.velocity_m_per_s": None, "load.mass_kg": 0.05, "load.initial_velocity_m_per_s": 0.02672}
+
+
+@pytest.mark.parametrize("changes", [HELD_FORCE, LOAD, {**HELD_FORCE, **LOAD}])
+def test_force_targets_and_loads_give_the_commands_of_run(scene, changes):
+    read = scene("target_step", changes)
+    loop = sonoglide.Loop(read)
+    to_the_end(loop)
+    assert loop.trace_hash == sonoglide.run(read).trace_hash
+
+
+def test_a_target_force_is_held_and_rewarded_in_newtons(scene):
+    loop = sonoglide.Loop(scene("target_step", HELD_FORCE))
+    for _ in range(150):
+        observation, reward, terminated, truncated, info = loop.step(0.008)
+    assert info["mean_friction_force_N"] == pytest.approx(0.008, rel=1e-3)
+    # 2.5 ms: the scene wants the second of its forces.
+    assert info["wanted_friction_force_N"] == 0.012
+    assert reward == pytest.approx(-0.004, rel=1e-3)
+    assert "wanted_friction_ratio" not in info
+
+
+def test_a_force_is_along_the_sliding_whichever_way_it_goes(scene):
+    loop = sonoglide.Loop(scene("target_step", {**HELD_FORCE, "sliding.velocity_m_per_s": -0.02672}))
+    for _ in range(100):
+        observation, reward, terminated, truncated, info = loop.step()
+    assert info["mean_friction_force_N"] == pytest.approx(-0.01, rel=1e-3)
+    assert reward == pytest.approx(0.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("target", [0.0, -0.1, 0.05, float("nan"), float("inf")])
+def test_target_forces_out_of_range_are_refused(scene, target):
+    loop = sonoglide.Loop(scene("target_step", HELD_FORCE))
+    with pytest.raises(ValueError, match="allowed: a friction force above 0, at most 0.0.* N"):
+        loop.step(target)
+
+
+def test_a_force_on_the_load_is_that_of_a_profile(scene):
+    loop = sonoglide.Loop(scene("target_step", LOAD))
+    pushed = scene("target_step", {**LOAD, "load.force_profile_N": [[0.0, 0.01]]})
+    for _ in range(2):
+        loop.reset()
+        assert loop.load_force_N == 0.0
+        loop.load_force_N = 0.01
+        steps = to_the_end(loop)
+        final = sonoglide.run(pushed).summary["load"]
+        assert steps[-1][0][2] == pytest.approx(final["final_velocity_m_per_s"], rel=1e-9)
+        assert steps[-1][4]["load_displacement_m"] == pytest.approx(final["final_displacement_m"], rel=1e-9)
+
+
+def test_a_force_on_the_load_may_change_between_steps(scene):
+    # M dv = F dt: the friction of 0.02 N is little beside 5 N.
+    loop = sonoglide.Loop(scene("target_step", {**LOAD, "controller.target_friction_ratio": [[0.0, 1.0]]}))
+    velocities = []
+    for force in (0.0, 5.0, -5.0):
+        loop.load_force_N = force
+        for _ in range(30):
+            velocities.append(loop.step()[0][2])
+    gained = 30 / 60e3 * 5.0 / 0.05
+    assert velocities[59] - velocities[29] == pytest.approx(gained, rel=0.01)
+    assert velocities[89] - velocities[59] == pytest.approx(-gained, rel=0.01)
+
+
+def test_a_copy_keeps_the_force_on_the_load(scene):
+    loop = sonoglide.Loop(scene("target_step", LOAD))
+    loop.load_force_N = 0.5
+    loop.step()
+    again = pickle.loads(pickle.dumps(loop))
+    assert again.load_force_N == 0.5
+    assert numpy.array_equal(loop.step()[0], again.step()[0])
+
+
+@pytest.mark.parametrize("changes, force, why", [({}, 1.0, "no load"), (LOAD, float("nan"), "finite"),
+                                                 (LOAD, float("inf"), "finite")])
+def test_a_force_that_no_load_can_have_is_refused(scene, changes, force, why):
+    loop = sonoglide.Loop(scene("target_step", changes))
+    with pytest.raises(ValueError, match=why):
+        loop.load_force_N = force
+    assert loop.load_force_N == 0.0
+
+
+def test_a_texture_is_refused(scene):
+    texture = {"period_m": 53.44e-6, "ratio": [0.4, 0.6]}
+    changes = {"controller.target_friction_ratio": None, "controller.target_texture": texture}
+    with pytest.raises(ValueError, match="controller.target_texture: .*allowed: "):
+        sonoglide.Loop(scene("target_step", changes))
+
+
 @pytest.mark.parametrize("name", ["table_1_open_loop", "langevin"])
 def test_scenes_that_cannot_be_stepped_are_refused(scene, name):
     with pytest.raises(ValueError, match="controller"):

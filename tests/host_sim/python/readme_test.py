@@ -10,7 +10,7 @@ def test_the_snippets_of_the_readme_run(monkeypatch, tmp_path):
     (tmp_path / "host_sim").symlink_to(README.parents[1])
     monkeypatch.chdir(tmp_path)
     snippets = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
-    assert len(snippets) == 9
+    assert len(snippets) == 10
     exec("\n".join(snippets), {})
 
 

@@ -25,6 +25,21 @@ def test_the_summary_is_that_of_the_program(scene, program):
     assert mine == theirs
 
 
+def test_a_texture_is_that_of_the_program(scene, program):
+    texture = {"period_m": 53.44e-6, "ratio": [0.4, 0.6]}
+    mine = sonoglide.run(scene("target_step", {"controller.target_friction_ratio": None,
+                                               "controller.target_texture": texture}))
+    theirs = program("target_step", "--set", "controller.target_friction_ratio=", "--set",
+                     "controller.target_texture={ period_m = 53.44e-6, ratio = [0.4, 0.6] }")
+    assert mine.trace_hash == theirs["control"]["trace_hash"]
+    assert mine.summary["control"]["texture"] == theirs["control"]["texture"]
+    assert mine.scene.values["controller"]["target_texture"] == texture
+    assert ", 1 periods of a texture, trace " in repr(mine)
+    assert "<th>target_phase_deg</th>" in mine._repr_html_()
+    ratio = mine.periods["friction_ratio"][60:]
+    assert ratio.min() < 0.45 and ratio.max() > 0.55
+
+
 def test_open_loop_meets_the_reference(scene):
     # Twenty digits of another method: tests/firmware/plant/data/reference_open_loop.csv.
     run = sonoglide.run(scene("table_1_open_loop"))

@@ -209,5 +209,20 @@ TEST(RequireRatioTest, NamesAnUnstableMotion) {
   EXPECT_EQ(require_ratio(scene, 0.03, 0.5).limit, Obstacle::none);
 }
 
+// 0.1 g on the published belt: a deviation grows by exp(99.6) in a period of the drive.
+TEST(SteadySlidingTest, WhereADeviationGrowsBeyondReasonNothingIsLookedFor) {
+  scene::Scene light = published_belt();
+  light.plant.mass_kg = 1e-4;
+  const SteadySliding undriven = steady_sliding(light, belt_m_per_s, 0.0);
+  EXPECT_EQ(undriven.fate(), Fate::unknown);
+  EXPECT_EQ(undriven.averaged_fate(), Fate::grows);
+  EXPECT_GT(undriven.averaged_multiplier, largest_growth);
+  // As far as it is looked for, it is found.
+  light.plant.mass_kg = 1e-2;
+  const SteadySliding heavier = steady_sliding(light, belt_m_per_s, 0.0);
+  EXPECT_EQ(heavier.fate(), Fate::grows);
+  EXPECT_NEAR(heavier.multiplier, heavier.averaged_multiplier, 1e-3 * heavier.multiplier);
+}
+
 }  // namespace
 }  // namespace sonoglide::steady::self_excitation_test
