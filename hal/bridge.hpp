@@ -50,7 +50,7 @@ inline constexpr auto half_width_table = half_widths();
 ///
 ///   sin(pi w / half_period) of full scale, which is 4/pi of the supply; its phase is always 0.
 ///
-/// @param amplitude    code, 0 … 2^31; reached within 1/2048 + pi / (2 half_period) of full scale
+/// @param amplitude    code, 0 … 2^31; reached within 1/2048 + pi / (2 half_period) + pi / 2^14 of full scale
 /// @param half_period  clocks, below 2^16
 /// @return w, clocks
 constexpr std::uint32_t half_width_of(std::uint32_t amplitude, std::uint32_t half_period) {

@@ -1,4 +1,4 @@
-/// Raspberry Pi Pico: the carrier and the sample of each of its periods, and what a unit needs besides.
+/// Raspberry Pi Pico and Pico 2: the carrier and the sample of each of its periods, and what a unit needs besides.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 #include "hal/board.hpp"
 #include "hal/bridge.hpp"
-#include "hal/pico/clocks.hpp"
+#include "hal/pico/chip.hpp"
 
 namespace sonoglide::hal::pico {
 
-/// Source: Raspberry Pi, RP2040 Datasheet, PWM.
+/// Source: Raspberry Pi, RP2040 and RP2350 Datasheets, PWM.
 struct SliceRegisters {
   volatile std::uint32_t control;
   volatile std::uint32_t divider;
@@ -46,8 +46,8 @@ extern "C" void take_carrier();
 /// RAM, one for the even and one for the odd periods, so that they stay there for a period.
 class Board {
  public:
-  static constexpr bool computes_floating_point = false;
-  static constexpr bool observes_vibration = false;
+  static constexpr bool computes_floating_point = fast;
+  static constexpr bool observes_vibration = fast;
   static constexpr bool has_vibration_sensor = false;
   static constexpr std::uint32_t clock_hz = system_hz;
 
@@ -60,7 +60,8 @@ class Board {
     // Not negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const auto steps = static_cast<std::uint32_t>(period_s * system_hz / step + 0.5);
     const double error = period_s * system_hz / (steps * step) - 1.0;
-    const bool exact = -crystal_tolerance < error && error < crystal_tolerance;
+    const bool exact =
+        -crystal_tolerance < error && error < crystal_tolerance && steps * step % 2 == 0;
     return exact && 97 <= steps && steps * step / 2 <= 0xffff ? steps * step : 0;
   }
 
@@ -144,8 +145,7 @@ class Watchdog {
   bool caused_reset() const { return caused_reset_; }
 
  private:
-  /// It falls by two in a microsecond.
-  static constexpr std::uint32_t tenth_of_a_second = 2 * 100000;
+  static constexpr std::uint32_t tenth_of_a_second = watchdog_counts_in_us * 100000;
 
   bool caused_reset_;
 };

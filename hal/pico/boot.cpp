@@ -1,10 +1,10 @@
 // The clocks of the chip, before its program is loaded.
-// Source: Raspberry Pi, RP2040 Datasheet, resets, XOSC, PLL, clocks.
+// Source: Raspberry Pi, RP2040 and RP2350 Datasheets, resets, XOSC, PLL, clocks.
 #include <cstddef>
 #include <cstdint>
 
 #include "hal/cortex_m/loaded/load_program.hpp"
-#include "hal/pico/clocks.hpp"
+#include "hal/pico/chip.hpp"
 #include "hal/pico/resets.hpp"
 
 namespace sonoglide::hal::pico {
@@ -33,13 +33,12 @@ struct ClockRegisters {
   volatile std::uint32_t system_divider;
   volatile std::uint32_t system_selected;
   volatile std::uint32_t peripheral_control;
-  std::uint32_t reserved[5];
+  std::uint32_t reserved[words_before_converter_clock];
   volatile std::uint32_t converter_control;
 };
 static_assert(offsetof(ClockRegisters, reference_control) == 0x30);
 static_assert(offsetof(ClockRegisters, system_control) == 0x3c);
 static_assert(offsetof(ClockRegisters, peripheral_control) == 0x48);
-static_assert(offsetof(ClockRegisters, converter_control) == 0x60);
 
 // Addresses from memory.ld.
 extern "C" {
@@ -54,7 +53,6 @@ constexpr std::uint32_t crystal_of_1_to_15_MHz = 0xaa0;
 constexpr std::uint32_t startup_of_1_ms = crystal_hz / 256 / 1000 + 1;
 constexpr std::uint32_t stable = 1U << 31;
 
-constexpr std::uint32_t system_oscillator_hz = 1320000000;  // 750 to 1600 MHz
 constexpr std::uint32_t usb_oscillator_hz = 1200000000;
 constexpr std::uint32_t locked = 1U << 31;
 constexpr std::uint32_t all_down = 0x2d;

@@ -1,4 +1,4 @@
-// Source: Raspberry Pi, RP2040 Datasheet, GPIO, pads, PWM, ADC, DMA.
+// Source: Raspberry Pi, RP2040 and RP2350 Datasheets, GPIO, pads, PWM, ADC, DMA.
 #include <cstddef>
 #include <cstdint>
 
@@ -49,10 +49,6 @@ constexpr std::uint32_t one_is_enough = 1U << 24;
 
 constexpr std::uint32_t channel_enabled = 1U << 0;
 constexpr std::uint32_t of_16_bits = 1U << 2;
-constexpr std::uint32_t to_next_address = 1U << 5;
-constexpr std::uint32_t in_ring_of_16_bytes = 4U << 6 | 1U << 10;
-constexpr unsigned next_channel = 11;
-constexpr std::uint32_t at_request_of_converter = 36U << 15;
 
 std::uint32_t address(const volatile void* object) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object));
@@ -105,8 +101,7 @@ Board::Board(std::uint32_t period_ticks) : half_period_(period_ticks / 2) {
 }
 
 void Board::interrupt() {
-  constexpr std::size_t carrier_interrupt = 4;
-  cortex_m::take_interrupt<32>(carrier_interrupt, take_carrier);
+  cortex_m::take_interrupt<interrupts>(carrier_interrupt, take_carrier);
   carrier_events.interrupting = slice_event;
 }
 

@@ -1,12 +1,14 @@
-/// What a pin of the RP2040 is used for.
+/// What a pin of the chip is used for.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/pico/chip.hpp"
+
 namespace sonoglide::hal::pico {
 
-/// Source: Raspberry Pi, RP2040 Datasheet, GPIO functions.
+/// Source: Raspberry Pi, RP2040 and RP2350 Datasheets, GPIO functions.
 enum class PinFunction : std::uint32_t { uart = 2, modulator = 4, software = 5, none = 31 };
 
 struct PinRegisters {
@@ -26,13 +28,9 @@ extern PadRegisters pads;
 }
 
 inline constexpr std::uint32_t schmitt_trigger = 1U << 1;
-inline constexpr std::uint32_t pull_down = 1U << 2;
 inline constexpr std::uint32_t pull_up = 1U << 3;
-inline constexpr std::uint32_t of_4_mA = 1U << 4;
 inline constexpr std::uint32_t input_enabled = 1U << 6;
 inline constexpr std::uint32_t output_disabled = 1U << 7;
-inline constexpr std::uint32_t output_low = 2U << 8;
-inline constexpr std::uint32_t output_enabled = 3U << 12;
 
 inline void use_pin(std::size_t pin, PinFunction function, std::uint32_t pad) {
   pads.pin[pin] = pad;
@@ -41,7 +39,7 @@ inline void use_pin(std::size_t pin, PinFunction function, std::uint32_t pad) {
 
 /// An output, held low while nothing drives it.
 inline void drive_pin(std::size_t pin, PinFunction function) {
-  use_pin(pin, function, of_4_mA | pull_down | input_enabled);
+  use_pin(pin, function, output_pad);
 }
 
 inline void receive_on_pin(std::size_t pin, PinFunction function) {

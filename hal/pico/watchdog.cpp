@@ -1,4 +1,4 @@
-// Source: Raspberry Pi, RP2040 Datasheet, watchdog and power-on state machine; erratum E1.
+// Source: Raspberry Pi, RP2040 and RP2350 Datasheets, watchdog and power-on state machine.
 #include <cstddef>
 #include <cstdint>
 
@@ -12,9 +12,7 @@ struct WatchdogRegisters {
   volatile std::uint32_t load;
   volatile std::uint32_t reason;
   volatile std::uint32_t scratch[8];
-  volatile std::uint32_t tick;
 };
-static_assert(offsetof(WatchdogRegisters, tick) == 0x2c);
 
 struct PowerStateRegisters {
   volatile std::uint32_t forced_on;
@@ -31,8 +29,6 @@ extern PowerStateRegisters power_states;
 constexpr std::uint32_t by_timer = 1U << 0;
 constexpr std::uint32_t counting_down = 1U << 30;
 constexpr std::uint32_t still_under_debugger = 7U << 24;
-constexpr std::uint32_t ticking = 1U << 9;
-constexpr std::uint32_t all_but_oscillators = 0x1fffc;
 /// The boot ROM resets by the watchdog as well; it leaves the first scratch register alone.
 constexpr std::uint32_t mark = 0x536f6e6f;
 
@@ -41,7 +37,7 @@ constexpr std::uint32_t mark = 0x536f6e6f;
 Watchdog::Watchdog()
     : caused_reset_((watchdog.reason & by_timer) != 0 && watchdog.scratch[0] == mark) {
   watchdog.scratch[0] = mark;
-  watchdog.tick = crystal_hz / 1000000 | ticking;
+  start_watchdog_ticks();
   power_states.by_watchdog = all_but_oscillators;
   feed();
   watchdog.control = counting_down | still_under_debugger;

@@ -7,7 +7,7 @@ macro(carrier_board board)
   set(${board}_images "${CMAKE_CURRENT_BINARY_DIR}/images_of_${board}")
 endmacro()
 
-# carrier_controller(<name> <scene> <TABLE.KEY=VALUE>...): its header, and what it meets on the workstation.
+# carrier_controller(<board>/<name> <scene> <TABLE.KEY=VALUE>...): its header, and what it meets on the workstation.
 function(carrier_controller name scene)
   set(file "${PROJECT_SOURCE_DIR}/host_sim/scenes/${scene}.toml")
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/controllers/${name}")
@@ -17,7 +17,7 @@ function(carrier_controller name scene)
     COMMAND sonoglide configure "${file}" --out "${folder}" --quiet ${settings}
     DEPENDS sonoglide "${file}" VERBATIM)
   set(outputs "${header}")
-  if(NOT name MATCHES "^refused")
+  if(NOT name MATCHES "/refused_")
     add_custom_command(OUTPUT "${folder}/trace"
       COMMAND board_trace "${file}" ${ARGN} > "${folder}/trace"
       DEPENDS board_trace "${file}" "${header}" VERBATIM)
@@ -29,7 +29,7 @@ endfunction()
 
 # carrier_refusal(<board> <name> <what the compiler says> <scene> <setting>...)
 function(carrier_refusal board name reason scene)
-  carrier_controller(refused_${name} ${scene} ${ARGN})
+  carrier_controller(${board}/refused_${name} ${scene} ${ARGN})
   set(folders ${folders} PARENT_SCOPE)
   set(written ${written} PARENT_SCOPE)
   set(test boards.${board}.${name}_is_refused)

@@ -71,8 +71,9 @@ function(sonoglide_board name)
     USES sonoglide_board sonoglide_processor)
 endfunction()
 
-# sonoglide_carrier_board(<name> FOLDER <f> HARDWARE <class>): a board whose carrier interrupts. Its class is
-# in <f>/board.hpp, its memory map in <f>/memory.ld. Each controller gives <name of its folder>_unit.elf, with
+# sonoglide_carrier_board(<name> FOLDER <f> [CHIP <chip>] HARDWARE <class>): a board whose carrier interrupts. Its
+# class is in <f>/board.hpp, its memory map in <f>/memory.ld; of boards that differ in their chip alone, what is
+# the chip's own is in <f>/<chip>. Each controller gives <name of its folder>_unit.elf, with
 # a link to its host, and <name>_scene.elf, with the targets of its scene. <f>/write_uf2 writes a .uf2 beside
 # each, where there is such a program, and Python.
 function(sonoglide_carrier_board name)
@@ -80,12 +81,18 @@ function(sonoglide_carrier_board name)
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "FOLDER;HARDWARE" "" ${ARGN})
-  sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_loaded)
+  cmake_parse_arguments(BOARD "" "FOLDER;CHIP;HARDWARE" "" ${ARGN})
+  sonoglide_room(sonoglide_board ${BOARD_FOLDER} FOLDERS ${BOARD_CHIP} USES sonoglide_hal sonoglide_loaded)
+  set(memory ${BOARD_FOLDER}/memory.ld)
+  if(BOARD_CHIP)
+    set(memory ${BOARD_FOLDER}/${BOARD_CHIP}/memory.ld)
+    target_compile_definitions(sonoglide_board PUBLIC
+      "SONOGLIDE_CHIP_HEADER=\"${BOARD_FOLDER}/${BOARD_CHIP}/chip.hpp\"")
+  endif()
   find_program(SONOGLIDE_INTERPRETER python3)
   foreach(image unit scene)
     sonoglide_images(_${image} SOURCE firmware/image/carrier_${image}.cpp
-      MEMORY ${BOARD_FOLDER}/memory.ld CLASS ${BOARD_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
+      MEMORY ${memory} CLASS ${BOARD_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
       USES sonoglide_carrier_image sonoglide_board)
     foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
       get_filename_component(controller "${folder}" NAME)
@@ -96,7 +103,7 @@ function(sonoglide_carrier_board name)
       if(SONOGLIDE_INTERPRETER AND EXISTS "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/write_uf2")
         add_custom_command(TARGET ${target} POST_BUILD VERBATIM
           COMMAND "${SONOGLIDE_INTERPRETER}" "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/write_uf2"
-            "$<TARGET_FILE:${target}>")
+            "$<TARGET_FILE:${target}>" ${BOARD_CHIP})
       endif()
     endforeach()
   endforeach()
@@ -169,7 +176,8 @@ if(CMAKE_CROSSCOMPILING)
   endif()
 
   sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
-  sonoglide_carrier_board(pico FOLDER hal/pico HARDWARE pico::Hardware)
+  sonoglide_carrier_board(pico FOLDER hal/pico CHIP rp2040 HARDWARE pico::Hardware)
+  sonoglide_carrier_board(pico2 FOLDER hal/pico CHIP rp2350 HARDWARE pico::Hardware)
   sonoglide_carrier_board(nucleo-g474re FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware)
   sonoglide_emulated_board(microbit FOLDER hal/microbit
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)

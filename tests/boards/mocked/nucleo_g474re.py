@@ -29,6 +29,7 @@ HALF_AND_WHOLE = (2, 1)  # bits of a transfer's events, of its first and its sec
 
 class Board(Machine):
     peripheral_space = range(0x40000000, 0x60000000)
+    streams = ()
     memory_space = range(0x20000000, 0x20018000)
 
     def __init__(self, file):

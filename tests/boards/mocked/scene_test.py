@@ -29,7 +29,7 @@ def main():
         conversions = [board_of.conversions_of(force), board_of.conversions_of(velocity)]
         for codes, at_rail in zip(conversions, (force_at_rail, velocity_at_rail)):
             if at_rail:
-                codes[3] = 4095 if sum(codes) > len(codes) * 2048 else 0
+                codes[-1] = 4095 if sum(codes) > len(codes) * 2048 else 0
         expected = rest
         if len(rest) > 6:  # with a vibration sensor
             in_phase, quadrature, *expected = rest
@@ -40,7 +40,8 @@ def main():
         answer = list(struct.unpack(layout, board.uc.mem_read(board.symbols["last_answer"], struct.calcsize(layout))))
         assert answer == expected, f"step {number}: {answer} in place of {expected}"
         farthest = max(farthest, abs(board.written_amplitude() - answer[0] / 2**31))
-        assert farthest <= 1 / 2048 + math.pi / (2 * board.half_period()), f"an amplitude is off by {farthest}"
+        largest = 1 / 2048 + math.pi / (2 * board.half_period()) + math.pi / 2**14  # hal/bridge.hpp
+        assert farthest <= largest, f"an amplitude is off by {farthest}"
     counts.sort()
     median = counts[len(counts) // 2]
     print(f"{len(counts)} periods: every command is the workstation's; a step takes {counts[0]} instructions at "

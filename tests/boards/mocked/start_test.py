@@ -13,22 +13,30 @@ def names_of(board):
     return sorted((value, name) for name, value in board.symbols.items() if value in board.peripheral_space)
 
 
-def shown(board, value):
+def shown(board, name, value):
     """An address of the image's memory by its name: it is no property of the board."""
-    named = [name for name, at in board.symbols.items() if at == value and name != "$d"]
-    return named[0] if value in board.memory_space and named else f"{value:#010x}"
+    if name not in ("transfers", "processor") or value not in board.memory_space:
+        return f"{value:#010x}"
+    at, symbol = max((at, symbol) for symbol, at in board.symbols.items()
+                     if at <= value and symbol and symbol[0] != "$")
+    return symbol + (f"+{value - at:#x}" if value > at else "")
 
 
 def listed(board):
     names = names_of(board)
     while board.accesses[-1][0] == "read":  # of what follows the start
         board.accesses.pop()
+    streamed = set()
     for (kind, address, value), repeats in itertools.groupby(board.accesses):
+        if address in board.streams:  # words of a store: each kind of them once
+            if (kind, address, value) in streamed:
+                continue
+            streamed.add((kind, address, value))
         base, name = max((entry for entry in names if entry[0] <= address), default=(0, "processor"))
         if address - base >= 0x100:
             base, name = 0, "processor"
         again = len(list(repeats))
-        yield f"{kind} {name}+{address - base:#x} {shown(board, value)}" + (f" times {again}" if again > 1 else "")
+        yield f"{kind} {name}+{address - base:#x} {shown(board, name, value)}" + (f" times {again}" if again > 1 else "")
 
 
 def main():
