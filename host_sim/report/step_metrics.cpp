@@ -266,7 +266,10 @@ void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics
                                   : metrics.drive_amplitude_N / steady::force_N(scene, 1.0);
   constexpr double clearly = 1.05;
   const bool below_target = needed.friction_ratio <= target + band_ * to_ratio;
-  const bool passed = mean_m_per_s > clearly * needed.velocity_m_per_s;
+  const bool full = metrics.limit == control::Limit::actuator ||
+                    metrics.limit == control::Limit::voltage ||
+                    metrics.limit == control::Limit::current;
+  const bool passed = full && mean_m_per_s > clearly * needed.velocity_m_per_s;
   if (needed.velocity_m_per_s > full_m_per_s || (below_target && !passed)) {
     return;
   }
