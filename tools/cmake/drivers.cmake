@@ -36,9 +36,11 @@ endfunction()
 
 sonoglide_drivers(arm FLAGS --target=thumbv7em-none-eabi
   FOLDERS hal hal/start hal/timed hal/halt hal/lockstep hal/lockstep/board hal/semihosting
-    hal/cortex_m hal/cortex_m/loaded hal/microbit hal/mps2 hal/netduinoplus2 hal/nucleo_g474re
+    hal/cortex_m hal/cortex_m/loaded hal/microbit hal/mps2 hal/netduinoplus2
     hal/pico hal/pico/rp2040 hal/template)
 target_compile_definitions(drivers_arm PRIVATE "SONOGLIDE_CHIP_HEADER=\"hal/pico/rp2040/chip.hpp\"")
+# Peripherals of other boards have the same names.
+sonoglide_drivers(g474 FLAGS --target=thumbv7em-none-eabi FOLDERS hal/nucleo_g474re)
 sonoglide_drivers(rp2350 FLAGS --target=thumbv8m.main-none-eabi FOLDERS hal/pico hal/pico/rp2350)
 target_compile_definitions(drivers_rp2350 PRIVATE "SONOGLIDE_CHIP_HEADER=\"hal/pico/rp2350/chip.hpp\"")
 sonoglide_drivers(riscv FLAGS --target=riscv32-unknown-elf -march=rv32imac -mabi=ilp32
