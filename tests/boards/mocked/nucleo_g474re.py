@@ -7,6 +7,7 @@ from unicorn.arm_const import UC_CPU_ARM_CORTEX_M4
 from machine import Machine
 
 CONVERSIONS = 16
+PAIRS_OF_CLOCKS_HZ = 84e6
 CARRIER_INTERRUPT = 25
 NON_MASKABLE = 2
 

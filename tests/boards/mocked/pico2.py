@@ -7,6 +7,7 @@ from unicorn.arm_const import UC_CPU_ARM_CORTEX_M33
 from machine import Machine
 
 CONVERSIONS = 4
+PAIRS_OF_CLOCKS_HZ = 75e6
 CARRIER_INTERRUPT = 8
 
 FLASH = 0x10000000
@@ -72,7 +73,8 @@ class Board(Machine):
         self.lose_conversions = False
         self.heard, self.sent = [], []
         definition = self.word(self.symbols["image_definition"])
-        assert definition == 0xFFFFDED3 and self.symbols["image_definition"] < FLASH + 0x1000, "the boot ROM finds no image"
+        assert definition == 0xFFFFDED3, "the boot ROM finds no image"
+        assert self.symbols["image_definition"] < FLASH + 0x1000, "the boot ROM looks at the first 4 KiB alone"
         self.reset(FLASH)
 
     def read(self, address):
@@ -87,7 +89,8 @@ class Board(Machine):
             return 1 << (self.registers.get(address - 8, 0) & 3)
         if address == CONVERTER:
             return value | 1 << 8
-        if address == TRANSFER_EVENTS and not self.enabled(CARRIER_INTERRUPT) and self.registers.get(CONVERTER, 0) & 8:
+        converting = self.registers.get(CONVERTER, 0) & 8
+        if address == TRANSFER_EVENTS and converting and not self.enabled(CARRIER_INTERRUPT):
             return 3  # the image waits for the second block
         if address == LINK:
             return value | (0 if self.answers else 1 << 16)

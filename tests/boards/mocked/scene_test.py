@@ -6,13 +6,29 @@ Usage: scene_test.py BOARD IMAGE.elf TRACE MOST   (MOST: instructions of a step,
 import importlib
 import math
 import random
+import re
 import struct
 import sys
+from pathlib import Path
 
 
 def read(file):
     with open(file, encoding="ascii") as lines:
         return [[int(word) for word in line.split()] for line in lines]
+
+
+def check_frequencies(half_periods, configuration, pairs_Hz):
+    """The time that has passed is that of the frequencies asked for, within one pair of clocks."""
+    text = configuration.read_text(encoding="utf-8")
+    step_Hz = re.search(r"frequency_step_Hz = ([^;]+);", text)
+    if not step_Hz:
+        return
+    start_s = float.fromhex(re.search(r"carrier_period_s = ([^;]+);", text).group(1))
+    step = float.fromhex(step_Hz.group(1)) * start_s
+    passed = sum(half_period for half_period, _ in half_periods)
+    relative = sum(1 / (1 + step * frequency) for _, frequency in half_periods)
+    start = pairs_Hz * start_s
+    assert abs(passed - start * relative) < 1.1, f"{passed} pairs of clocks in place of {start * relative}"
 
 
 def main():
@@ -22,6 +38,7 @@ def main():
     board.start()
     dice = random.Random(1)
     counts = []
+    half_periods = []
     farthest = 0.0
     for number, step in enumerate(read(trace)):
         force, velocity, force_at_rail, fresh, velocity_at_rail, *rest = step
@@ -42,6 +59,8 @@ def main():
         farthest = max(farthest, abs(board.written_amplitude() - answer[0] / 2**31))
         largest = 1 / 2048 + math.pi / (2 * board.half_period()) + math.pi / 2**14  # hal/bridge.hpp
         assert farthest <= largest, f"an amplitude is off by {farthest}"
+        half_periods.append((board.half_period(), answer[-1] if len(expected) > 6 else 0))
+    check_frequencies(half_periods, Path(trace).with_name("controller_configuration.hpp"), board_of.PAIRS_OF_CLOCKS_HZ)
     counts.sort()
     median = counts[len(counts) // 2]
     print(f"{len(counts)} periods: every command is the workstation's; a step takes {counts[0]} instructions at "
