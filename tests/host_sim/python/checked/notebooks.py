@@ -27,6 +27,12 @@ readings = {
 }
 laws = ["coulomb", "transverse_coulomb"]
 """,
+        # A structured array.
+        f"""
+import pandas
+readings = pandas.read_csv("{IDENTIFY}/friction/examples/luo_2024.csv", comment="#").to_records(index=False)
+laws = ["dahl", "iwan"]
+""",
         # A file with decimal commas.
         """
 import pathlib
