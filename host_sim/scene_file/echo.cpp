@@ -70,7 +70,9 @@ class Echo {
   ordered_json operator()(Of<scene::TimedProfile> profile) const { return rows(profile(scene_)); }
   ordered_json operator()(InPlaceOf level) const { return rows(level.profile(scene_)); }
   ordered_json operator()(Of<std::vector<scene::SpeedPoint>> points) const {
-    return is_constant(points(scene_)) ? nullptr : rows(points(scene_));
+    const std::vector<scene::SpeedPoint>& all = points(scene_);
+    const bool is_told = &all == &scene_.sliding.profile && is_constant(all);  // as one velocity
+    return is_told ? nullptr : rows(all);
   }
   ordered_json operator()(ConstantSpeed constant) const {
     const std::vector<scene::SpeedPoint>& points = constant.profile(scene_);

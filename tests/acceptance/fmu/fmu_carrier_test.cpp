@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, FmuCarrier,
                                          Device{"langevin",
                                                 "--set run.duration_s=6e-3 --set "
                                                 "'controller.target_friction_ratio=[[0.0, 0.5], "
-                                                "[3e-3, 0.3]]'"}),
+                                                "[3e-3, 0.3]]'"},
+                                         Device{"fingertip", "--set run.duration_s=12e-3"}),
                          [](const auto& tested) { return tested.param.scene; });
 
 /// The state of a plant after 31 carrier periods of 60 kHz and 30 of 61 kHz.

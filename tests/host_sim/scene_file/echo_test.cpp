@@ -51,6 +51,14 @@ TEST(EchoTest, OfTheExamplesIsTheSameSceneAgain) {
 }
 
 /// Absent it would follow from the design.
+// One velocity of the sliding is velocity_m_per_s; that of a pull has no other key.
+TEST(EchoTest, HoldsAPullThatIsConstant) {
+  const scene::Scene scene =
+      read_text(load_open_loop, "s", {"load.pull_profile_m_per_s=[[0, 0.02]]"});
+  EXPECT_EQ(to_json(scene)["load"]["pull_profile_m_per_s"].dump(), "[[0.0,0.02]]");
+  expect_same_scene_again(scene);
+}
+
 TEST(EchoTest, HoldsACalibrationOf0) {
   const scene::Scene trusting =
       read_file(std::filesystem::path(SONOGLIDE_SCENES) / "damped_by_force.toml",
