@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,13 @@ namespace sonoglide::identify::friction {
 
 // 95 % intervals of the parameters of a law.
 
-/// Of the logarithm; not a number where the data leave that side open, as far as the range goes.
+/// What the data do not tell.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Of the logarithm; unknown where the data leave that side open, as far as the range goes.
 struct LogInterval {
-  double low;
-  double high;
+  double low = unknown;
+  double high = unknown;
 };
 
 /// Profile likelihood: at a value x of one parameter the others are fitted again, and
@@ -74,6 +78,15 @@ inline constexpr double fails_below = 0.01;
 
 /// Without intervals.
 LawFit fit(const Readings& readings, const Candidate& law);
+
+/// Values and ends of the intervals as they are shown.
+std::vector<Estimate> estimates(const LawFit& fit, const Readings& readings,
+                                const LawProblem& problem,
+                                const std::vector<LogInterval>& intervals);
+
+/// Of the scatters under a fit.
+std::vector<double> probabilities_of(const LawProblem& problem, const LawFit& fit,
+                                     const std::vector<Scatter>& scatters);
 
 /// Fills the ends of the intervals, and what is open.
 void add_intervals(const Readings& readings, LawFit& fit);

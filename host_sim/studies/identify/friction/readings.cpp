@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -12,174 +11,20 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
-#include "host_sim/scene/names.hpp"
-#include "host_sim/scene_file/suggestion.hpp"
-#include "host_sim/studies/identify/identification.hpp"
+#include "host_sim/studies/identify/friction/reading_columns.hpp"
 #include "host_sim/studies/identify/measured_table.hpp"
-#include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
 
-/// A column that a file may have, and what its numbers may be.
-struct Known {
-  std::string_view name;
-  double least;
-  double most;
-  std::string_view hint;
-};
-
-constexpr std::array known = {
-    Known{"sliding_velocity_m_per_s", 1e-12, 100.0,
-          "m/s; at rest friction has no mean over a period"},
-    Known{"vibration_velocity_m_per_s", 0.0, 100.0, "m/s, peak; 0 without vibration"},
-    Known{"velocity_ratio", 1e-9, 1e9, "sliding velocity over peak vibration velocity"},
-    Known{"vibration_amplitude_m", 0.0, 0.01, "m; 0 without vibration"},
-    Known{"frequency_Hz", 1.0, 1e9, "Hz"},
-    Known{"friction_ratio", -0.5, 1.5,
-          "friction with vibration over friction without, neither percent nor reduction"},
-    Known{"friction_force_N", -1e9, 1e9, "N"},
-    Known{"friction_ratio_standard_error", 1e-12, 1.0, "that of the friction ratio"},
-    Known{"friction_force_standard_error_N", 1e-24, 1e9, "N"}};
-
 /// A vibration is none, or at least this.
 constexpr double least_vibration_m_per_s = 1e-15;
-constexpr std::size_t longest_name = 100;
 /// Values that are all below are no measurement.
 constexpr double least_friction = 1e-12;
 
-std::vector<std::string_view> known_names() {
-  std::vector<std::string_view> names;
-  names.reserve(std::size(known));
-  for (const Known& each : known) {
-    names.push_back(each.name);
-  }
-  return names;
-}
-
-const Known* find_known(std::string_view name) {
-  const auto* const each =
-      std::find_if(known.begin(), known.end(), [&](const Known& any) { return any.name == name; });
-  return each == known.end() ? nullptr : each;
-}
-
-/// Without the unit in brackets that ends it.
-std::string name_of(const std::string& title) {
-  const std::size_t open = title.find_last_of("([");
-  const bool ends = !title.empty() && (title.back() == ')' || title.back() == ']');
-  return open == std::string::npos || !ends
-             ? title
-             : title.substr(0, title.find_last_not_of(" ([", open) + 1);
-}
-
-bool are_names_of_readings(const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(),
-                     [](const std::string& each) { return find_known(name_of(each)) != nullptr; });
-}
-
-/// The columns of a file by the names that are known.
-class Columns {
- public:
-  explicit Columns(const MeasuredTable& table) : table_(table) {
-    for (std::size_t i = 0; i < table.names().size(); ++i) {
-      take(table.names()[i], i);
-    }
-  }
-
-  bool has(std::string_view name) const { return find(name) != nullptr; }
-
-  /// Every number of the column, each in its range.
-  std::vector<double> numbers(std::string_view name) const {
-    const Column& column = *find(name);
-    std::vector<double> values = table_.numbers(column.index);
-    for (std::size_t row = 0; row < values.size(); ++row) {
-      const Known& range = *column.known;
-      if (values[row] < range.least || values[row] > range.most) {
-        throw table_.error(row, column.index,
-                           fmt::format("is out of range; allowed: from {:g} up to {:g} ({})",
-                                       range.least, range.most, range.hint));
-      }
-    }
-    return values;
-  }
-
-  scene_file::SceneError error(std::size_t row, std::string_view name,
-                               const std::string& message) const {
-    return table_.error(row, find(name)->index, message);
-  }
-
-  /// The one that is there.
-  std::string_view one_of(std::initializer_list<std::string_view> names) const {
-    std::string_view found;
-    std::string list;
-    for (const std::string_view name : names) {
-      list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
-      if (has(name)) {
-        if (!found.empty()) {
-          throw table_.heading_error(
-              fmt::format("has both {} and {}; allowed: one of them", found, name));
-        }
-        found = name;
-      }
-    }
-    if (found.empty()) {
-      throw table_.heading_error(fmt::format("a column is missing; allowed: {}{}",
-                                             names.size() > 1 ? "one of " : "", list));
-    }
-    return found;
-  }
-
- private:
-  struct Column {
-    const Known* known;
-    std::size_t index;
-  };
-
-  const Column* find(std::string_view name) const {
-    for (const Column& each : columns_) {
-      if (each.known->name == name) {
-        return &each;
-      }
-    }
-    return nullptr;
-  }
-
-  /// A name may have its unit behind it, in brackets or on a line of units.
-  void take(const std::string& title, std::size_t index) {
-    const std::string name = name_of(title.size() > longest_name ? shortened(title) : title);
-    const Known* each = find_known(name);
-    if (each == nullptr) {
-      throw unknown(name, index);
-    }
-    if (has(name)) {
-      throw table_.heading_error(index, fmt::format("names {} twice; allowed: once", name));
-    }
-    const std::string unit = unit_in_brackets(title);
-    const std::string own = scene::unit_of(name).empty() ? "-" : scene::unit_of(name);
-    if (!unit.empty() && unit != own) {
-      throw table_.heading_error(
-          index, fmt::format("\"{}\" is no unit of {}; allowed: {}", unit, name, own));
-    }
-    columns_.push_back({each, index});
-  }
-
-  scene_file::SceneError unknown(const std::string& name, std::size_t index) const {
-    if (const auto near = scene_file::nearest_name(name, known_names())) {
-      const std::string unit = scene::unit_of(*near);
-      return table_.heading_error(
-          index, fmt::format("unknown column \"{}\"; did you mean {}?{}", name, *near,
-                             unit.empty() ? "" : " It is in " + unit + "."));
-    }
-    return table_.heading_error(index, fmt::format("unknown column \"{}\"; allowed: {}", name,
-                                                   fmt::join(known_names(), ", ")));
-  }
-
-  const MeasuredTable& table_;
-  std::vector<Column> columns_;
-};
-
 /// Peak vibration velocities, from whichever column the file has.
-std::vector<double> vibrations(const Columns& columns, const std::vector<double>& sliding_m_per_s,
+std::vector<double> vibrations(const ReadingColumns& columns,
+                               const std::vector<double>& sliding_m_per_s,
                                const std::vector<double>& frequency_Hz,
                                const MeasuredTable& table) {
   const std::string_view name =
@@ -284,7 +129,7 @@ Readings read_readings(const scene_file::Source& source) {
                     "as much",
                     table.rows(), most_readings));
   }
-  const Columns columns(table);
+  const ReadingColumns columns(table);
   columns.one_of({"sliding_velocity_m_per_s"});
   const std::string_view friction = columns.one_of({"friction_ratio", "friction_force_N"});
   Readings readings;
