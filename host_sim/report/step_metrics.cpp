@@ -236,18 +236,13 @@ void StepMeter::name_self_excitation(const TargetSpan& span, StepMetrics& metric
   }
 }
 
-void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics) const {
-  const bool other_cause = metrics.limit == control::Limit::none ||
-                           metrics.limit == control::Limit::self_excited ||
-                           !(metrics.steady_error > band_);
-  if (other_cause || !has_least_friction_) {
-    return;
-  }
+std::optional<LeastFriction> StepMeter::least_friction(const TargetSpan& span,
+                                                       const StepMetrics& metrics) const {
   const scene::Scene& scene = *has_least_friction_;
   const double sliding_m_per_s =
       std::abs(loop::SlidingProfile(scene.sliding).velocity_m_per_s(span.quarter_s));
   if (!(sliding_m_per_s > 0.0)) {
-    return;
+    return std::nullopt;
   }
   // From target and band, which are over the friction limit if they are of a force, to ratios.
   const double to_ratio =
@@ -256,7 +251,7 @@ void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics
                        : 1.0;
   const double target = span.target * to_ratio;
   if (!(target < 1.0)) {
-    return;
+    return std::nullopt;
   }
   const steady::RequiredVibration needed =
       steady::closed_form_vibration(scene, sliding_m_per_s, target);
@@ -271,10 +266,21 @@ void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics
                     metrics.limit == control::Limit::current;
   const bool passed = full && mean_m_per_s > clearly * needed.velocity_m_per_s;
   if (needed.velocity_m_per_s > full_m_per_s || (below_target && !passed)) {
+    return std::nullopt;
+  }
+  return LeastFriction{needed.friction_ratio, needed.velocity_m_per_s, below_target};
+}
+
+void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics) const {
+  const bool other_cause = metrics.limit == control::Limit::none ||
+                           metrics.limit == control::Limit::self_excited ||
+                           !(metrics.steady_error > band_);
+  if (other_cause || !has_least_friction_) {
     return;
   }
-  metrics.least_friction = {needed.friction_ratio, needed.velocity_m_per_s, below_target};
-  if (metrics.limit == control::Limit::not_settling || metrics.limit == control::Limit::mismatch) {
+  metrics.least_friction = least_friction(span, metrics);
+  if (metrics.least_friction && (metrics.limit == control::Limit::not_settling ||
+                                 metrics.limit == control::Limit::mismatch)) {
     metrics.limit = resonant_ ? control::Limit::voltage : control::Limit::actuator;
     metrics.cause = control::Settling::pending;
     metrics.limit_seen_by_controller = false;

@@ -200,6 +200,9 @@ class StepMeter final : public loop::PeriodSink {
   StepMetrics metrics(const TargetSpan& span, const Tally& tally) const;
   void name_unseen_limit(const TargetSpan& span, const Tally& tally, StepMetrics& metrics) const;
   void name_self_excitation(const TargetSpan& span, StepMetrics& metrics) const;
+  /// See StepMetrics::least_friction.
+  std::optional<LeastFriction> least_friction(const TargetSpan& span,
+                                              const StepMetrics& metrics) const;
   void name_least_friction(const TargetSpan& span, StepMetrics& metrics) const;
   void name_passed_bound(const Tally& tally, StepMetrics& metrics) const;
   control::Settling true_cause(const TargetSpan& span, const Tally& tally, bool off) const;
