@@ -10,6 +10,7 @@
 #include "firmware/link/frame.hpp"
 #include "firmware/link/messages.hpp"
 #include "firmware/link/sequence.hpp"
+#include "hal/serial_line.hpp"
 
 namespace sonoglide::app {
 
@@ -20,38 +21,30 @@ namespace sonoglide::app {
 /// A fault overtakes the requests whose first byte came before it: they are refused. So a restart
 /// that was sent before the fault does not end it.
 ///
-/// A request that comes again is not carried out again: its answer is sent again. A request that is
-/// older than the last, or has its number but other content, is refused with the number of the
-/// last, from which a host that has lost count can go on. Damaged frames are counted and not
-/// answered.
+/// A request that comes again is not carried out again: its answer is sent again. But what is read is
+/// read anew, and a restart that comes again is refused as out of turn: an answer from memory would
+/// tell a host of a restart that was another's. A request that is older than the last, or has its
+/// number but other content, is refused with the number of the last, from which a host that has lost
+/// count can go on. A hello begins the count anew. Damaged frames are counted and not answered.
 ///
-/// @tparam ByteLink  see hal/board.hpp.
-template <class UnitT, class ByteLink>
+/// @tparam ByteLink   see hal/board.hpp.
+/// @tparam MostBytes  that a service takes in and sends at most: what comes between two services, see
+///                    hal::bytes_in. 32 will do for 115200 baud and a service each 2.6 ms.
+template <class UnitT, class ByteLink, std::size_t MostBytes = 32>
 class LinkService {
+  static_assert(hal::holds_two_services<ByteLink, MostBytes>,
+                "the ring under a byte link holds two services' worth");
+
  public:
   LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
-  /// Receives one byte. Unless that ends a frame, it encodes or sends
-  /// one byte, carries out one request, or takes one step of a save.
+  /// Receives what has come. Then it carries out one request, or takes one step of a save, and sends what
+  /// there is room for.
   void serve() {
-    if (receive()) {
-      return;
+    for (std::size_t left = MostBytes; left > 0 && receive(); --left) {
     }
-    if (ordering_ != 0) {
-      finish_order(unit_.order_end());
-    } else if (saving_ != 0) {
-      finish_save(unit_.proceed());
-    } else if (encoder_.busy()) {
-      encoder_.proceed();
-    } else if (sent_ < encoder_.wire().size) {
-      sent_ += bytes_.send(encoder_.wire().bytes[sent_]) ? 1U : 0U;
-    } else if (stopped_) {
-      stopped_ = false;
-      send(link::frame_of(link::Stopped{}, stop_sequence_));
-    } else if (waiting_ > 0) {
-      --waiting_;
-      take(requests_[first_]);
-      first_ = (first_ + 1) % most_waiting;
+    proceed();
+    for (std::size_t left = MostBytes; left > 0 && send_byte(); --left) {
     }
   }
 
@@ -64,20 +57,52 @@ class LinkService {
     std::uint32_t faults = 0;  ///< since reset, when its first byte came
   };
 
+  void proceed() {
+    if (ordering_ != 0) {
+      finish_order(unit_.order_end());
+    } else if (saving_ != 0) {
+      finish_save(unit_.proceed());
+    } else if (sent_ < encoder_.wire().size) {
+      return;  // one answer after the other
+    } else if (stopped_) {
+      stopped_ = false;
+      send(link::frame_of(link::Stopped{}, stop_sequence_));
+    } else if (waiting_ > 0) {
+      --waiting_;
+      take(requests_[first_]);
+      first_ = (first_ + 1) % most_waiting;
+    }
+  }
+
+  /// @return whether a byte went out
+  bool send_byte() {
+    if (sent_ == encoder_.wire().size || !bytes_.send(encoder_.wire().bytes[sent_])) {
+      return false;
+    }
+    ++sent_;
+    return true;
+  }
+
   // ---- Frames that come in ----
 
-  /// @return whether a frame came to its end, whole or not.
+  /// @return whether there was a byte
   bool receive() {
     std::uint8_t byte = 0;
     if (!bytes_.receive(byte)) {
       return false;
     }
+    take(byte);
+    return true;
+  }
+
+  // Out of line, so that it stands once: most services find no byte.
+  [[gnu::noinline]] void take(std::uint8_t byte) {
     if (!decoder_.begun()) {
       faults_ = faults();
     }
     switch (decoder_.take(byte)) {
       case link::Reception::nothing:
-        return false;
+        break;
       case link::Reception::frame:
         unit_.supervisor().hear_host();
         accept(decoder_.frame());
@@ -89,7 +114,6 @@ class LinkService {
         ++lost_frames_;
         break;
     }
-    return true;
   }
 
   void accept(const link::Frame& frame) {
@@ -117,8 +141,14 @@ class LinkService {
 
   void take(const Received& request) {
     const link::Frame& frame = request.frame;
+    if (frame.kind == link::Hello::kind) {
+      turns_.restart();
+    }
     const link::Turn turn = turns_.take(frame.sequence);
-    if (turn == link::Turn::repeated && request.checksum == checksum_) {
+    const bool again = turn == link::Turn::repeated && request.checksum == checksum_;
+    if (again && link::is_reading(frame.kind)) {
+      dispatch(frame);
+    } else if (again && frame.kind != link::Restart::kind) {
       send(answer_);
     } else if (turn == link::Turn::repeated || turn == link::Turn::late) {
       const std::uint32_t last = turns_.last();
@@ -146,7 +176,8 @@ class LinkService {
     const bool known = handles<link::ReadTelemetry>(request) || handles<link::SetTarget>(request) ||
                        handles<link::ReadParameter>(request) ||
                        handles<link::WriteParameter>(request) || handles<link::Restart>(request) ||
-                       handles<link::ReadFault>(request) || handles<link::Confirm>(request);
+                       handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
+                       handles<link::Hello>(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
     }
@@ -175,6 +206,10 @@ class LinkService {
                            drive.amplitude, unit_.target(), drive.state, drive.limit, drive.fault,
                            static_cast<std::uint8_t>(unit_.origin()), lost_frames_, drive.settling,
                            mismatch_thousandths(drive, unit_.target_ratio())});
+  }
+
+  void carry_out(const link::Hello& request) {
+    answer(link::Greeted{request.session, unit_.design()});
   }
 
   void carry_out(const link::SetTarget& request) {
@@ -311,6 +346,9 @@ class LinkService {
 
   [[gnu::noinline]] void send(const link::Frame& frame) {
     encoder_.begin(frame);
+    while (encoder_.busy()) {
+      encoder_.proceed();
+    }
     sent_ = 0;
   }
 

@@ -57,6 +57,9 @@ class Unit {
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
 
+  /// Tells this design from others.
+  std::uint32_t design() const { return design_.design(); }
+
   /// Where the parameters come from: as found at reset, or stored since.
   store::Origin origin() const { return origin_; }
 

@@ -195,6 +195,36 @@ struct Confirmed : Confirm {
   static constexpr std::uint8_t kind = Confirm::kind | answer_bit;
 };
 
+/// A host begins a session: the number of its frame, whatever it is, is in turn, and no answer to a host
+/// before it comes again.
+struct Hello {
+  static constexpr std::uint8_t kind = 0x09;
+  std::uint16_t session;  ///< at random, so that a host knows the answer to its own hello
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.session);
+  }
+};
+
+/// Answers Hello.
+struct Greeted {
+  static constexpr std::uint8_t kind = Hello::kind | answer_bit;
+  std::uint16_t session;  ///< that of the hello
+  std::uint32_t design;   ///< number of the unit's design, see app::FieldDesign
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.session);
+    visit(message.design);
+  }
+};
+
+/// Asks for what may have changed since, and changes nothing: to be answered anew each time.
+constexpr bool is_reading(std::uint8_t kind) {
+  return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind;
+}
+
 enum class Reason : std::uint8_t {
   unknown_request = 1,
   wrong_length,

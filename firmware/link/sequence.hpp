@@ -28,6 +28,9 @@ class SequenceWatch {
     return ahead == 0 ? Turn::repeated : Turn::late;
   }
 
+  /// Another sender, whose first number is in turn.
+  void restart() { begun_ = false; }
+
   std::uint16_t last() const { return last_; }
 
  private:

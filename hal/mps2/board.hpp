@@ -28,8 +28,10 @@ extern "C" UartRegisters uart0;  ///< address from the linker script
 template <std::uint32_t ClockHz>
 class Uart {
  public:
+  static constexpr std::uint32_t baud = 115200;
+
   Uart() {
-    uart0.baud_divider = ClockHz / 115200;
+    uart0.baud_divider = ClockHz / baud;
     uart0.control = transmit_enabled | receive_enabled;
   }
 

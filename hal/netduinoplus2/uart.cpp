@@ -54,7 +54,7 @@ Uart::Uart() {
   // Pins 9 and 10: alternate function 7.
   port_a.alternate_function_high = (port_a.alternate_function_high & ~0xff0U) | 0x770U;
   port_a.mode = (port_a.mode & ~(0xfU << 18)) | (0xaU << 18);
-  usart1.baud_divider = (clock_hz + 115200 / 2) / 115200;
+  usart1.baud_divider = (clock_hz + baud / 2) / baud;
   usart1.control_1 = usart_enabled | transmit_enabled | receive_enabled;
 }
 

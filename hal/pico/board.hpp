@@ -132,6 +132,8 @@ class Board {
 /// bits, no parity, one stop bit; 32 bytes wait.
 class Uart {
  public:
+  static constexpr std::uint32_t baud = 115200;
+
   Uart();
   bool receive(std::uint8_t& byte);
   bool send(std::uint8_t byte);

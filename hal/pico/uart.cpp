@@ -31,8 +31,7 @@ constexpr std::uint32_t of_8_bits = 3U << 5;
 constexpr std::uint32_t with_queues = 1U << 4;
 constexpr std::uint32_t enabled_both_ways = 1U << 0 | 1U << 8 | 1U << 9;
 
-constexpr std::uint32_t baud = 115200;
-constexpr std::uint32_t divider_64ths = (system_hz * 4 + baud / 2) / baud;
+constexpr std::uint32_t divider_64ths = (system_hz * 4 + Uart::baud / 2) / Uart::baud;
 
 }  // namespace
 

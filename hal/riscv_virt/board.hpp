@@ -16,6 +16,8 @@ namespace sonoglide::hal::riscv_virt {
 /// A byte link, see hal/board.hpp: 115200 baud, 8 data bits, no parity, one stop bit.
 class Uart {
  public:
+  static constexpr std::uint32_t baud = 115200;
+
   Uart();
   bool receive(std::uint8_t& byte);
   bool send(std::uint8_t byte);

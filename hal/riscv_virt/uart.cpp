@@ -24,7 +24,7 @@ constexpr std::uint8_t divisor_latch = 0x80;
 constexpr std::uint8_t fifo_enabled = 0x01;
 constexpr std::uint8_t received = 0x01;
 constexpr std::uint8_t transmit_empty = 0x20;
-constexpr std::uint8_t divisor = 3686400 / (16 * 115200);  // of the clock in hertz
+constexpr std::uint8_t divisor = 3686400 / (16 * Uart::baud);  // of the clock in hertz
 
 }  // namespace
 

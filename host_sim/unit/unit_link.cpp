@@ -24,10 +24,17 @@ std::optional<std::uint32_t> last_number(const link::Frame& answer) {
 
 }  // namespace
 
-// A number at random is hardly ever that of the last host, whose answer would come again.
 UnitLink::UnitLink(SerialPort& port, std::chrono::milliseconds patience)
     : port_(port), patience_(patience), sequence_(any_number()) {
-  ask<link::Telemetry>(link::ReadTelemetry{});
+  const std::uint16_t session = any_number();
+  const Result<link::Greeted> answer = ask<link::Greeted>(link::Hello{session});
+  const auto* const greeted = std::get_if<link::Greeted>(&answer);
+  if (greeted == nullptr) {
+    fail("knows no hello: its firmware is not of this program");
+  }
+  if (greeted->session != session) {
+    fail("answers another host");
+  }
 }
 
 link::Frame UnitLink::exchange(link::Frame request, std::chrono::milliseconds patience) {

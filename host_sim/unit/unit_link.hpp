@@ -15,9 +15,9 @@ namespace sonoglide::unit {
 /// The host's end of the framed link (firmware/link). One request at a time.
 class UnitLink {
  public:
-  /// Asks the unit for its telemetry, so that a silent or foreign device is told at once.
   static constexpr std::chrono::milliseconds usual_patience{400};
 
+  /// Begins a session with a hello, so that a silent or foreign device is told at once.
   /// @param port      outlives this
   /// @param patience  how long an answer may take: longer in an emulator on a busy machine
   /// @throws process::ProcessError  the device answers nothing, or nothing that a unit says

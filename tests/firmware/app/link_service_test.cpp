@@ -98,7 +98,8 @@ class PoweredUnit {
     return design;
   }
 
-  using Service = LinkService<TestedUnit, Wire>;
+  /// Of one byte each way, so that every byte has a period of its own.
+  using Service = LinkService<TestedUnit, Wire, 1>;
 
   Service service_{unit, wire};
   TimedLoop<TestedUnit::Supervisor, TimedBoard, CountingWatchdog, Service> loop_{
@@ -358,6 +359,46 @@ TEST(LinkServiceTest, ARepeatedRequestIsAnsweredAgainAndNotDoneAgain) {
   EXPECT_EQ(flash.operations(), operations_of_a_save);
 }
 
+// A host whose answer was lost goes on from the number that it is told.
+TEST(LinkServiceTest, ARepeatedRestartIsRefusedAndNotAnsweredFromMemory) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.put(link::frame_of(link::Restart{}, 7));
+  powered.put(link::frame_of(link::Restart{}, 7));
+  const std::vector<link::Frame> frames = powered.answers();
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].kind, link::Restarted::kind);
+  expect_refusal(frames[1], link::Restart::kind, Reason::out_of_turn, 7, 7);
+}
+
+// Each counts from 0, whatever the one before it did.
+TEST(LinkServiceTest, ThreeHostsThatBeginAtZeroGetFreshAnswers) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  std::uint32_t period = 0;
+  for (std::uint16_t host = 0; host < 3; ++host) {
+    for (const bool greets : {true, false}) {
+      std::uint16_t sequence = 0;
+      if (greets) {
+        powered.put(link::frame_of(link::Hello{host}, sequence++));
+        link::Greeted greeted{};
+        ASSERT_TRUE(link::read(powered.answers().at(0), greeted));
+        EXPECT_EQ(greeted.session, host);
+        EXPECT_EQ(greeted.design, field_design.design());
+        powered.put(link::frame_of(link::Restart{}, sequence++));
+        EXPECT_EQ(powered.answers().at(0).kind, link::Restarted::kind);
+      } else {
+        sequence = 2;  // a host that only reads, with the number of the one before it
+      }
+      powered.put(link::frame_of(link::ReadTelemetry{}, sequence));
+      link::Telemetry told{};
+      ASSERT_TRUE(link::read(powered.answers().at(0), told));
+      EXPECT_GT(told.period, period);
+      period = told.period;
+    }
+  }
+}
+
 TEST(LinkServiceTest, ALateOrReusedNumberIsRefusedWithTheLast) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
@@ -378,14 +419,14 @@ TEST(LinkServiceTest, ALateOrReusedNumberIsRefusedWithTheLast) {
 TEST(LinkServiceTest, UnknownAndMisshapenRequestsAreRefused) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
-  for (const int kind : {0, 9, 0x7F, 0x81, 0xFF}) {
+  for (const int kind : {0, 10, 0x7F, 0x81, 0xFF}) {
     link::Frame frame;
     frame.kind = static_cast<std::uint8_t>(kind);
     frame.sequence = ++powered.sequence;
     powered.put(frame);
     expect_refusal(powered.answers().at(0), frame.kind, Reason::unknown_request, 0, 0);
   }
-  for (std::uint8_t kind = 1; kind < 9; ++kind) {
+  for (std::uint8_t kind = 1; kind < 10; ++kind) {
     link::Frame frame;
     frame.kind = kind;
     frame.sequence = ++powered.sequence;
@@ -520,10 +561,9 @@ TEST(LinkServiceTest, AFaultCancelsTheRestartThatWasSentBeforeIt) {
     if (frames[1].kind == link::Refusal::kind) {
       expect_refusal(frames[1], link::Restart::kind, Reason::overtaken_by_fault, 0, 0);
       ++refused;
-      // A repetition gets the same answer, a new request is carried out.
+      // A repetition is refused, a new request is carried out.
       powered.put(link::frame_of(link::Restart{}, 2));
-      expect_refusal(powered.answers().at(0), link::Restart::kind, Reason::overtaken_by_fault, 0,
-                     0);
+      expect_refusal(powered.answers().at(0), link::Restart::kind, Reason::out_of_turn, 2, 2);
     }
     powered.ask<link::Restarted>(link::Restart{});
     ASSERT_EQ(powered.telemetry().state, running) << when;

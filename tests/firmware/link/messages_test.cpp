@@ -108,6 +108,8 @@ TEST(MessageBytes, AreThoseOfTheReference) {
       {frame_of(logged_fault(), 7), "0004028707080f22040302014d0101053e9a2c6800"},
       {frame_of(Confirm{}, 8), "00040208080527cc874d00"},
       {frame_of(Confirmed{}, 8), "000402880805a7d7b2ac00"},
+      {frame_of(Hello{0x1234}, 9), "0004020909073412ecaf81c400"},
+      {frame_of(Greeted{0x1234, 0x89abcdef}, 9), "00040289090b3412efcdab89f69ef17900"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {

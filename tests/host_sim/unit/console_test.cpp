@@ -159,8 +159,10 @@ TEST_F(ConsoleTest, ANewHostFindsTheUnitThatAnOlderOneLeft) {
 /// Answers the first copy of each request.
 class FakeUnit {
  public:
-  /// @param answer  to the request of this number
-  FakeUnit(const PseudoTerminal& terminal, std::function<link::Frame(std::uint16_t)> answer)
+  using Answer = std::function<link::Frame(const link::Frame&)>;
+
+  /// @param answer  to a request
+  FakeUnit(const PseudoTerminal& terminal, Answer answer)
       : link_(terminal), answer_(std::move(answer)) {}
 
  private:
@@ -169,7 +171,7 @@ class FakeUnit {
     if (link_.receive(byte) && decoder_.take(byte) == link::Reception::frame &&
         last_ != decoder_.frame().sequence) {
       last_ = decoder_.frame().sequence;
-      const link::WireFrame wire = link::encode(answer_(*last_));
+      const link::WireFrame wire = link::encode(answer_(decoder_.frame()));
       for (std::size_t i = 0; i < wire.size; ++i) {
         link_.send(wire.bytes[i]);
       }
@@ -177,7 +179,7 @@ class FakeUnit {
   }
 
   TerminalLink link_;
-  std::function<link::Frame(std::uint16_t)> answer_;
+  Answer answer_;
   link::FrameDecoder decoder_;
   std::optional<std::uint16_t> last_;
   Device served_{[this] { serve(); }};
@@ -188,12 +190,15 @@ class FakeUnit {
 TEST(UnitLinkTest, IsPatientWithASlowUnitThatAnotherHostHasLeft) {
   const PseudoTerminal terminal;
   bool refused = false;
-  const FakeUnit unit(terminal, [&](std::uint16_t number) {
+  const FakeUnit unit(terminal, [&](const link::Frame& request) {
+    const std::uint16_t number = request.sequence;
+    link::Hello hello{};
+    EXPECT_TRUE(link::read(request, hello));
     std::this_thread::sleep_for(5 * UnitLink::usual_patience / 2);
     const auto out_of_turn = static_cast<std::uint8_t>(link::Reason::out_of_turn);
     const std::uint32_t last = static_cast<std::uint16_t>(number + 7);
     return std::exchange(refused, true)
-               ? link::frame_of(link::Telemetry{}, number)
+               ? link::frame_of(link::Greeted{hello.session, 0}, number)
                : link::frame_of(link::Refusal{0x01, out_of_turn, last, last}, number);
   });
   SerialPort port(terminal.device());
@@ -229,11 +234,32 @@ TEST(UnitLinkTest, KnowsAForeignDeviceByWhatItSays) {
 
 TEST(UnitLinkTest, KnowsAUnitByAnswersToWhatWasAskedBefore) {
   const PseudoTerminal terminal;
-  const FakeUnit unit(terminal, [](std::uint16_t number) {
-    return link::frame_of(link::Telemetry{}, static_cast<std::uint16_t>(number - 1));
+  const FakeUnit unit(terminal, [](const link::Frame& request) {
+    return link::frame_of(link::Telemetry{}, static_cast<std::uint16_t>(request.sequence - 1));
   });
   EXPECT_EQ(failure_at(terminal.device()),
             terminal.device() + ": is a unit, but its answer comes too late");
+}
+
+TEST(UnitLinkTest, KnowsTheAnswerToAnotherHostsHello) {
+  const PseudoTerminal terminal;
+  const FakeUnit unit(terminal, [](const link::Frame& request) {
+    link::Hello hello{};
+    EXPECT_TRUE(link::read(request, hello));
+    return link::frame_of(link::Greeted{static_cast<std::uint16_t>(hello.session + 1), 0},
+                          request.sequence);
+  });
+  EXPECT_EQ(failure_at(terminal.device()), terminal.device() + ": answers another host");
+}
+
+TEST(UnitLinkTest, KnowsAUnitWithoutAHello) {
+  const PseudoTerminal terminal;
+  const FakeUnit unit(terminal, [](const link::Frame& request) {
+    const auto unknown = static_cast<std::uint8_t>(link::Reason::unknown_request);
+    return link::frame_of(link::Refusal{request.kind, unknown, 0, 0}, request.sequence);
+  });
+  EXPECT_EQ(failure_at(terminal.device()),
+            terminal.device() + ": knows no hello: its firmware is not of this program");
 }
 
 TEST(UnitLinkTest, KnowsAUnitOfAnotherVersion) {
