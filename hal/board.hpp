@@ -89,7 +89,7 @@ struct BiasedDrive : Drive {
 ///     bool caused_reset() const;
 ///   };
 ///
-///   class ByteLink {  // neither call waits
+///   class ByteLink {  // neither call waits; over a UART see hal::BufferedLink
 ///    public:
 ///     bool receive(std::uint8_t& byte);  // false: nothing there
 ///     bool send(std::uint8_t byte);      // false: no room yet
@@ -131,7 +131,8 @@ template <class Board, class SampleT = Sample, class DriveT = Drive>
 inline constexpr bool is_board = detail::IsBoard<Board, SampleT, DriveT>::value;
 
 /// Whether a board makes the carrier periods itself.
-template <class Board>
-inline constexpr bool keeps_periods = is_board<Board>&& detail::KeepsPeriods<Board>::value;
+template <class Board, class SampleT = Sample, class DriveT = Drive>
+inline constexpr bool keeps_periods =
+    is_board<Board, SampleT, DriveT>&& detail::KeepsPeriods<Board>::value;
 
 }  // namespace sonoglide::hal

@@ -47,6 +47,8 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
 
  public:
   using Scalar = typename Base::Scalar;
+  using Sample = typename Base::Sample;
+  using Drive = typename Base::Drive;
   using Parameters = typename ControllerT::Parameters;
 
   enum class Kind : std::uint8_t { restart, target, parameters };
@@ -81,13 +83,13 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   // ---- The control side's ----
 
   /// One carrier period.
-  const hal::Drive& step(const hal::Sample& sample) { return step(sample, look()); }
+  const Drive& step(const Sample& sample) { return step(sample, look()); }
 
   /// What the service wants of the carrier period that begins.
   Work look() { return orders_.look(); }
 
   /// A carrier period with what look() gave, here or in the run that is replayed.
-  const hal::Drive& step(const hal::Sample& sample, const Work& work) {
+  const Drive& step(const Sample& sample, const Work& work) {
     Base::begin(sample);
     if (work.stop) {
       Base::stop();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/control/controller.hpp"
@@ -104,18 +105,16 @@ constexpr Scalar fraction_below(std::uint32_t count, std::uint32_t whole) {
 template <class PartsT>
 class FieldDesign {
  public:
-  static_assert(!PartsT::Vibration::observed, "a timed unit has no vibration sensor");
-  static_assert(std::is_same_v<typename PartsT::Vibration::Command,
-                               control::DriveCommand<typename PartsT::Scalar>>,
-                "a timed unit makes no bias");
   using Scalar = typename PartsT::Scalar;
-  /// The designed parts, with a drive limit and a tolerance of unusable samples.
-  using Parts =
-      control::Parts<Scalar, typename PartsT::Friction, typename PartsT::Feedforward,
-                     typename PartsT::Slew, typename PartsT::Shaper, typename PartsT::Regulator,
-                     typename PartsT::Relearning, typename PartsT::Vibration,
-                     typename PartsT::Force, typename PartsT::Target, control::DriveLimit<Scalar>,
-                     control::TolerantSamples>;
+  /// Of an observed vibration every sample is needed.
+  using Samples = std::conditional_t<PartsT::Vibration::observed, control::StrictSamples,
+                                     control::TolerantSamples>;
+  /// The designed parts, with a drive limit and, where it may be, a tolerance of unusable samples.
+  using Parts = control::Parts<Scalar, typename PartsT::Friction, typename PartsT::Feedforward,
+                               typename PartsT::Slew, typename PartsT::Shaper,
+                               typename PartsT::Regulator, typename PartsT::Relearning,
+                               typename PartsT::Vibration, typename PartsT::Force,
+                               typename PartsT::Target, control::DriveLimit<Scalar>, Samples>;
   using Controller = control::Controller<Parts>;
   using Designed = typename control::Controller<PartsT>::Parameters;
 
@@ -137,10 +136,10 @@ class FieldDesign {
              millionths(numeric::to_real(designed.friction_force))},
             {Inheritance::higher, millionths(control::smallest_speed_floor), one_in_millionths,
              millionths(numeric::to_real(designed.speed_floor))},
-            {Inheritance::none, designed.stuck.periods, UINT16_MAX, designed.stuck.periods},
+            stuck_range(designed.stuck),
             {Inheritance::value, 0, 1, 0},
             {Inheritance::value, 0, longest_timeout_ms, timeout_ms},
-            {Inheritance::none, 0, sample_window - 1, 0},
+            {Inheritance::none, 0, tolerates_samples ? sample_window - 1 : 0, 0},
         }},
         target_(target),
         design_(number(design)),
@@ -186,24 +185,15 @@ class FieldDesign {
   constexpr typename Controller::Parameters controller_parameters(
       const ParameterValues& values) const {
     typename Controller::Parameters result{
-        designed_.friction_force,
-        designed_.smallest_friction,
-        designed_.speed_floor,
-        designed_.lead,
-        designed_.friction,
-        designed_.feedforward,
-        designed_.slew,
-        designed_.shaper,
-        designed_.regulator,
-        designed_.relearning,
-        designed_.vibration,
-        designed_.standstill,
-        designed_.stuck,
-        designed_.plausibility,
-        designed_.watch,
-        {control::FullDrive<Scalar>::highest()},
-        {static_cast<std::uint8_t>(value(values, Parameter::bad_samples)), sample_window},
-        designed_.target};
+        designed_.friction_force, designed_.smallest_friction,
+        designed_.speed_floor,    designed_.lead,
+        designed_.friction,       designed_.feedforward,
+        designed_.slew,           designed_.shaper,
+        designed_.regulator,      designed_.relearning,
+        designed_.vibration,      designed_.standstill,
+        designed_.stuck,          designed_.plausibility,
+        designed_.watch,          {control::FullDrive<Scalar>::highest()},
+        samples(values),          designed_.target};
     if (changed(values, Parameter::drive_limit)) {
       result.ceiling.highest =
           fraction_below<Scalar>(value(values, Parameter::drive_limit), one_in_millionths);
@@ -217,7 +207,9 @@ class FieldDesign {
     if (changed(values, Parameter::speed_floor)) {
       result.speed_floor = millionths_of(values, Parameter::speed_floor);
     }
-    result.stuck.periods = static_cast<std::uint16_t>(value(values, Parameter::stuck_periods));
+    if constexpr (PartsT::Force::present) {
+      result.stuck.periods = static_cast<std::uint16_t>(value(values, Parameter::stuck_periods));
+    }
     return result;
   }
 
@@ -249,6 +241,26 @@ class FieldDesign {
   static constexpr std::uint32_t smallest_friction() {
     const double least = numeric::to_real(control::FrictionLevel<Scalar>::smallest());
     return static_cast<std::uint32_t>(least * one_in_millionths) + 1;
+  }
+
+  static constexpr bool tolerates_samples = std::is_same_v<Samples, control::TolerantSamples>;
+
+  /// Nothing to choose where no force is read.
+  template <class StuckParameters>
+  static constexpr ParameterRange stuck_range(const StuckParameters& stuck) {
+    if constexpr (PartsT::Force::present) {
+      return {Inheritance::none, stuck.periods, UINT16_MAX, stuck.periods};
+    } else {
+      return {Inheritance::none, 0, 0, 0};
+    }
+  }
+
+  static constexpr typename Samples::Parameters samples(const ParameterValues& values) {
+    if constexpr (tolerates_samples) {
+      return {static_cast<std::uint8_t>(value(values, Parameter::bad_samples)), sample_window};
+    } else {
+      return {};
+    }
   }
 
   static constexpr std::uint32_t value(const ParameterValues& values, Parameter parameter) {

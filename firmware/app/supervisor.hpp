@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/fault_log.hpp"
@@ -43,6 +44,8 @@ class Supervisor {
  public:
   using Controller = ControllerT;
   using Scalar = typename Controller::Scalar;
+  using Sample = SampleOf<Controller>;
+  using Drive = DriveOf<Controller>;
   static constexpr bool drives_from_power_on = Host::drives_from_power_on;
 
   explicit Supervisor(const typename Controller::Parameters& parameters)
@@ -57,9 +60,14 @@ class Supervisor {
   /// From any state: the drive begins afresh. The log is kept.
   void restart() {
     host_.clear();
+    typename Controller::Command rest{};
+    if (running()) {
+      rest = controller_.rest();  // the next step knows of the period at zero
+    }
     controller_.start();
     drive_ = {};
     drive_.state = static_cast<std::uint8_t>(control::State::calibrating);
+    hold_frequency(rest);
   }
 
   /// Drive to zero until a restart; a fault's cause is left to the log.
@@ -70,31 +78,33 @@ class Supervisor {
     log_.add({drive_.fault, periods_});
   }
 
-  /// While running: a fault, but the drive ramps down instead of ending at once.
+  /// While running: a fault, but the drive ramps down instead of ending at once, at its frequency; a bias
+  /// ends at once.
   void ramp_down(UnitFault fault) {
     if (running()) {
-      const std::int32_t amplitude = drive_.amplitude;
+      const Drive last = drive_;
       trip(fault);
-      drive_.amplitude = amplitude;
-      host_.begin(amplitude);
+      drive_.amplitude = last.amplitude;
+      hold_frequency(last);
+      host_.begin(last.amplitude);
     }
   }
 
   /// One carrier period.
-  const hal::Drive& step(const hal::Sample& sample) {
+  const Drive& step(const Sample& sample) {
     begin(sample);
     return answer(sample);
   }
 
   /// The first part of step(): counts the period and keeps what it showed.
-  void begin(const hal::Sample& sample) {
+  void begin(const Sample& sample) {
     ++periods_;
     friction_force_ = sample.friction_force;
     sliding_velocity_ = sample.sliding_velocity;
   }
 
   /// The other: answers the sample.
-  const hal::Drive& answer(const hal::Sample& sample) {
+  const Drive& answer(const Sample& sample) {
     if (running()) {
       drive_ = drive_of(
           controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample)));
@@ -121,15 +131,26 @@ class Supervisor {
   /// Another controller in its place, for the next restart; not while driving. settle_at() follows.
   void replace(const Controller& controller) { controller_ = controller; }
 
+  /// See Controller::next_frequency; of a controller that leads it.
+  std::int32_t next_frequency() const { return controller_.next_frequency(); }
+
   /// Codes of the last sample, and the answer to it.
   std::int32_t friction_force() const { return friction_force_; }
   std::int32_t sliding_velocity() const { return sliding_velocity_; }
-  const hal::Drive& drive() const { return drive_; }
+  const Drive& drive() const { return drive_; }
   /// Served since reset; wraps, after 19.9 h at 60 kHz.
   std::uint32_t periods() const { return periods_; }
   const FaultLog<LogLength, Host::template Word>& faults() const { return log_; }
 
  private:
+  /// @param command  whose frequency it is, if it has one
+  template <class Command>
+  void hold_frequency([[maybe_unused]] const Command& command) {
+    if constexpr (std::is_same_v<Drive, hal::ResonantDrive>) {
+      drive_.frequency = command.frequency;
+    }
+  }
+
   bool running() const {
     return drive_.state != static_cast<std::uint8_t>(control::State::off) &&
            drive_.state != static_cast<std::uint8_t>(control::State::fault);
@@ -146,7 +167,7 @@ class Supervisor {
   Controller controller_;
   std::int32_t friction_force_ = 0;
   std::int32_t sliding_velocity_ = 0;
-  hal::Drive drive_{};
+  Drive drive_{};
   std::uint32_t periods_ = 0;
   [[no_unique_address]] Host host_;
   FaultLog<LogLength, Host::template Word> log_;

@@ -15,6 +15,12 @@ struct TargetStep {
   Scalar target;         ///< see Controller::set_target
 };
 
+/// In force from the start of a unit, until its host sets another.
+template <class Scalar, std::size_t Count>
+constexpr Scalar first_target(const TargetStep<Scalar> (&steps)[Count]) {
+  return steps[0].target;
+}
+
 /// Walks through steps of rising period, one call for each carrier period.
 template <class Scalar, std::size_t Count>
 class TargetSchedule {

@@ -100,9 +100,6 @@ struct TextureTargets {
   const Scalar* points;  ///< see Controller::set_target; all of one sign
   std::uint16_t count;   ///< of the points, at least 2
 
-  /// Units are told their targets by a host: they have no texture, and no first target.
-  void operator[](int) const = delete;
-
   /// @param turn  the place in 2^-32 periods
   Scalar at(std::uint32_t turn) const {
     const std::uint64_t place = std::uint64_t{turn} * count;
@@ -113,6 +110,10 @@ struct TextureTargets {
     return points[before] + numeric::rough_product(part, points[after] - points[before]);
   }
 };
+
+/// Units are told their targets by a host: they have no texture, and no first target.
+template <class Scalar, class Steps>
+void first_target(const TextureTargets<Scalar, Steps>& targets) = delete;
 
 /// Follows a texture, one call of each function for each step.
 template <class Scalar, class Steps>

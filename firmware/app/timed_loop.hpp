@@ -31,7 +31,8 @@ struct NoService {
 ///                   LinkService; NoService is none.
 template <class SupervisorT, class Board, class Watchdog, class Service>
 class TimedLoop {
-  static_assert(hal::keeps_periods<Board>,
+  using Sample = typename SupervisorT::Sample;
+  static_assert(hal::keeps_periods<Board, Sample, typename SupervisorT::Drive>,
                 "a board on its own timer has sample(), drive() and period(): see hal/board.hpp");
 
  public:
@@ -46,7 +47,7 @@ class TimedLoop {
 
   /// Serves one carrier period; false when the board shuts down.
   bool control() {
-    hal::Sample sample{};
+    Sample sample{};
     if (!board_.sample(sample)) {
       return false;
     }

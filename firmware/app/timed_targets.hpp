@@ -46,6 +46,12 @@ struct TimedTargets {
   TimedTarget<Scalar> steps[Count];
 };
 
+/// See first_target of TargetStep.
+template <class Scalar, std::size_t Count>
+constexpr Scalar first_target(const TimedTargets<Scalar, Count>& targets) {
+  return targets.steps[0].target;
+}
+
 /// Walks through targets of rising time, one call for each carrier period.
 template <class Scalar, std::size_t Count>
 class TimedSchedule {

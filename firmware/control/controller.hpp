@@ -84,6 +84,14 @@ class Controller {
     fault_ = Fault::none;
   }
 
+  /// A step in which the drive is at zero, whatever is asked for.
+  Command rest() {
+    Command command{DriveCommand<Scalar>{Scalar{}, whole_ratio(), State::off, Limit::none,
+                                         Fault::none, Settling::pending}};
+    vibration_.after(command);
+    return command;
+  }
+
   /// @param target  friction ratio or force, see RatioTarget::take() and ForceTarget::take(). One that is
   ///                not finite leaves the old one in force.
   void set_target(Scalar target) {
@@ -354,7 +362,11 @@ class Controller {
 
   DriveCommand<Scalar> apply(const Request& request) {
     requested_ = numeric::observe<typename PartsT::Vibration::Requested>(request.amplitude);
-    const auto [amplitude, limit] = vibration_.drive(requested_, shaper_, ceiling_.highest());
+    Request driven = vibration_.drive(requested_, shaper_, ceiling_.highest());
+    if constexpr (PartsT::Vibration::observed) {
+      driven = ceiling_.held(driven, PartsT::Vibration::at_full_drive);
+    }
+    const auto [amplitude, limit] = driven;
     return conclude(amplitude, request.limit == Limit::none ? limit : request.limit);
   }
 

@@ -10,14 +10,7 @@
 #include "firmware/app/texture.hpp"
 #include "firmware/control/controller.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
-
-namespace sonoglide::app {
-/// Found where the configuration has no step of its own: the drive keeps its frequency.
-inline constexpr double frequency_step_Hz = 0.0;
-namespace configuration {
-inline constexpr double step_of_drive_Hz = frequency_step_Hz;
-}
-}  // namespace sonoglide::app
+#include "firmware/image/carrier/frequency_step.hpp"
 
 namespace {
 
@@ -25,12 +18,11 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
-constexpr bool tuned = configuration::step_of_drive_Hz > 0.0;
 constexpr std::uint32_t ticks =
     sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board,
                                    configuration::every_periods, configuration::delay_periods,
                                    configuration::interpolates,
-                                   tuned>::of(configuration::carrier_period_s);
+                                   app::tuned>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
 
@@ -43,13 +35,6 @@ class ShownBoard : public Hardware::Board {
   using Hardware::Board::Board;
   void drive(const Answer& answer);
 };
-
-template <class Board>
-void tune(Board& board) {
-  if constexpr (tuned) {
-    board.tune(configuration::carrier_period_s, configuration::step_of_drive_Hz);
-  }
-}
 
 using Targets = decltype(app::schedule_of(configuration::target_steps));
 
@@ -83,7 +68,7 @@ void ShownBoard::drive(const Answer& answer) {
 int main() {
   Run own;
   own.controller.start();
-  tune(own.board);
+  app::tune(own.board, configuration::carrier_period_s);
   run = &own;
   Hardware::Board::interrupt();
   for (;;) {

@@ -11,6 +11,7 @@
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
+#include "firmware/image/carrier/frequency_step.hpp"
 
 namespace {
 
@@ -22,15 +23,13 @@ constexpr std::uint32_t ticks =
     sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board,
                                    configuration::every_periods, configuration::delay_periods,
                                    configuration::interpolates,
-                                   false>::of(configuration::carrier_period_s);
+                                   app::tuned>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
 
-constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].target,
-                                                        configuration::design,
-                                                        configuration::step_period_s,
-                                                        app::default_timeout_ms);
+constexpr app::FieldDesign<configuration::Parts> design(
+    configuration::parameters, app::first_target(configuration::target_steps),
+    configuration::design, configuration::step_period_s, app::default_timeout_ms);
 
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;
 using Service = app::LinkService<Unit, Hardware::ByteLink>;
@@ -51,6 +50,7 @@ int main() {
   Unit unit(design, flash);
   Service service(unit, bytes);
   Hardware::Board board(ticks);
+  app::tune(board, configuration::carrier_period_s);
   Loop own(unit.supervisor(), board, watchdog, service);
   loop = &own;
   Hardware::Board::interrupt();

@@ -9,6 +9,7 @@
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
+#include "hal/serial_line.hpp"
 #include "hal/timed/board.hpp"
 
 namespace {
@@ -17,6 +18,10 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
+static_assert(
+    !configuration::Parts::Vibration::observed,
+    "an emulated board has no vibration; a board of a product fills hal::VibrationSample");
+
 /// Of the loop; the carrier is derived from the same clock.
 constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
     configuration::carrier_period_s, configuration::every_periods);
@@ -24,10 +29,9 @@ constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
 /// The time of an emulator is not that of the host: none would be a silence.
 constexpr std::uint32_t timeout_ms = 0;
 
-constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].target,
-                                                        configuration::design, period_s,
-                                                        timeout_ms);
+constexpr app::FieldDesign<configuration::Parts> design(
+    configuration::parameters, app::first_target(configuration::target_steps),
+    configuration::design, period_s, timeout_ms);
 
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
@@ -40,7 +44,9 @@ int main() {
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
   app::Unit unit(design, flash);
-  app::LinkService service(unit, bytes);
+  app::LinkService<decltype(unit), Hardware::ByteLink,
+                   sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s)>
+      service(unit, bytes);
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::TimedLoop loop(unit.supervisor(), board, watchdog, service);
   while (loop.serve()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "hal/board.hpp"
 #include "hal/timed/drive_register.hpp"
@@ -62,7 +63,8 @@ constexpr double loop_period_s(double carrier_period_s, unsigned every_periods) 
 ///   static constexpr std::uint32_t hz;
 ///   static constexpr std::uint32_t largest;  // 2^n - 1: 0 comes after it
 ///   std::uint32_t ticks() const;
-/// @tparam Contact  has drive(), live() and sample() as StandInContact
+/// @tparam Contact  has drive(), live() and sample() as StandInContact; that of a unit that observes the
+///                  vibration gives its samples
 template <class Clock, class Contact = StandInContact>
 class Board {
  public:
@@ -72,6 +74,8 @@ class Board {
   /// @param period_ticks  of a period of the loop, 1 ... most_period_ticks.
   explicit Board(std::uint32_t period_ticks)
       : period_ticks_(period_ticks), begin_(clock_.ticks()) {}
+
+  using Sample = decltype(std::declval<const Contact&>().sample());
 
   bool sample(Sample& sample) {
     while (period() == sampled_) {

@@ -49,7 +49,7 @@ int main() {
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::Supervisor<sonoglide::control::Controller<configuration::Parts>> supervisor(
       configuration::parameters);
-  supervisor.set_target(configuration::target_steps[0].target);
+  supervisor.set_target(app::first_target(configuration::target_steps));
   sonoglide::hal::NoWatchdog watchdog;
   app::NoService service;
   app::TimedLoop loop(supervisor, board, watchdog, service);

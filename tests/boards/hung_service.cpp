@@ -27,9 +27,9 @@ constexpr double period_s = hal::timed::loop_period_s<Hardware>(configuration::c
 constexpr auto period_clocks = static_cast<std::uint32_t>(period_s * Hardware::Board::clock_hz);
 constexpr std::uint32_t settled = 300;  // periods
 
-constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].target,
-                                                        configuration::design, period_s, 0);
+constexpr app::FieldDesign<configuration::Parts> design(
+    configuration::parameters, app::first_target(configuration::target_steps),
+    configuration::design, period_s, 0);
 using Unit = app::Unit<configuration::Parts, Hardware::Flash>;
 
 /// Each call of sample() is an interrupt that begins a period.

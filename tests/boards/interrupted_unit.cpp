@@ -23,10 +23,9 @@ namespace configuration = app::configuration;
 namespace encoding = sonoglide::encoding;
 namespace hal = sonoglide::hal;
 
-constexpr app::FieldDesign<configuration::Parts> design(configuration::parameters,
-                                                        configuration::target_steps[0].target,
-                                                        configuration::design,
-                                                        configuration::step_period_s, 0);
+constexpr app::FieldDesign<configuration::Parts> design(
+    configuration::parameters, app::first_target(configuration::target_steps),
+    configuration::design, configuration::step_period_s, 0);
 using Design = app::FieldDesign<configuration::Parts>;
 using Supervised = app::CommandedSupervisor<Design::Controller, Design::Designed>;
 

@@ -1,16 +1,17 @@
-// The controller of a scene on a board's own timer, in the period of its steps. In the place of a contact there
-// are the samples that it meets on the workstation: its commands are the same, or a line says so.
+// The unit of a scene on a board's own timer, in the period of its steps. In the place of a contact there are
+// the samples that it meets on the workstation: its commands are the same, or a line says so.
 #include SONOGLIDE_BOARD_HEADER
 
 #include <cstddef>
 #include <cstdint>
 
 #include "controller_configuration.hpp"
-#include "firmware/app/supervisor.hpp"
-#include "firmware/app/target_schedule.hpp"
+#include "firmware/app/field_parameters.hpp"
 #include "firmware/app/timed_loop.hpp"
+#include "firmware/app/unit.hpp"
 #include "hal/no_watchdog.hpp"
 #include "hal/timed/board.hpp"
+#include "hal/timed/volatile_pages.hpp"
 #include "hal/trace_hash.hpp"
 #include "recorded_run.hpp"
 
@@ -22,12 +23,12 @@ namespace configuration = app::configuration;
 namespace hal = sonoglide::hal;
 namespace recorded = sonoglide::recorded;
 
-/// Whatever the drive does.
+/// Whatever the drive does. The first period is that of the restart, whose sample nobody looks at.
 class RecordedContact {
  public:
   static void drive(std::int32_t /*amplitude*/) {}
   void live() { ++begun_; }
-  hal::Sample sample() const { return recorded::samples[begun_ - 1]; }
+  auto sample() const { return recorded::samples[begun_ < 2 ? 0 : begun_ - 2]; }
 
  private:
   std::size_t begun_ = 0;
@@ -41,21 +42,25 @@ struct WithRecordedContact<hal::timed::Board<Clock>> {
 };
 using Board = WithRecordedContact<Hardware::Board>::Board;
 
-constexpr double period_ticks = hal::timed::loop_period_s<Hardware>(configuration::carrier_period_s,
-                                                                    configuration::every_periods) *
-                                    Board::clock_hz +
-                                0.5;
+constexpr double period_s = hal::timed::loop_period_s<Hardware>(configuration::carrier_period_s,
+                                                                configuration::every_periods);
+constexpr app::FieldDesign<configuration::Parts> design(
+    configuration::parameters, app::first_target(configuration::target_steps),
+    configuration::design, period_s, 0);
 
 }  // namespace
 
 int main() {
   Hardware::ByteLink bytes;
-  app::Supervisor<sonoglide::control::Controller<configuration::Parts>> supervisor(
-      configuration::parameters);
+  hal::timed::VolatilePages flash;
+  app::Unit unit(design, flash);
+  auto& supervisor = unit.supervisor();
   hal::NoWatchdog watchdog;
   app::NoService service;
-  Board board(static_cast<std::uint32_t>(period_ticks));
+  Board board(static_cast<std::uint32_t>(period_s * Board::clock_hz + 0.5));
   app::TimedLoop loop(supervisor, board, watchdog, service);
+  unit.restart(0);
+  loop.serve();
   auto targets = app::schedule_of(configuration::target_steps);
   hal::TraceHash hash;
   for (std::size_t i = 0; i < sizeof recorded::samples / sizeof recorded::samples[0]; ++i) {

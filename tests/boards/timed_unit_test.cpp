@@ -403,6 +403,20 @@ INSTANTIATE_TEST_SUITE_P(
                                            "mps2-an505", "netduinoplus2", "riscv32-virt"})),
     named_after_its_board);
 
+/// The same of units that observe the vibration, off resonance and at it; slower than their scenes.
+class ReplayedVibration : public testing::TestWithParam<const char*> {};
+
+TEST_P(ReplayedVibration, HasTheCommandsOfTheWorkstation) {
+  for (const char* const image : {"damped_step_replayed", "wire_bonder_q31_replayed"}) {
+    Terminal terminal(emulate(GetParam(), image, 5));
+    EXPECT_EQ(terminal.next_line(), "the same commands") << image;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, ReplayedVibration,
+                         testing::ValuesIn(tested<const char*>({"microbit", "mps2-an386"})),
+                         named_after_its_board);
+
 /// Control in the interrupt of the system timer, at 20 periods from random orders of three seeds each, on
 /// the smallest processor, one without and one with a floating-point unit.
 /// An order, a restart, a fault: no period takes much longer than others.

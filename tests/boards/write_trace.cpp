@@ -43,53 +43,73 @@ void write_line(const hal::VibrationSample& sample, const hal::ResonantDrive& dr
   std::cout << ' ' << drive.frequency << '\n';
 }
 
-void write_initialiser(const hal::Sample& sample, const hal::Drive& /*drive*/) {
-  std::cout << "    {" << sample.friction_force << ", " << sample.sliding_velocity << ", "
-            << sample.force_at_rail << ", " << sample.fresh << ", " << sample.velocity_at_rail
-            << "},\n";
+void write_fields(const hal::Sample& sample) {
+  std::cout << sample.friction_force << ", " << sample.sliding_velocity << ", "
+            << sample.force_at_rail << ", " << sample.fresh << ", " << sample.velocity_at_rail;
 }
 
+void write_initialiser(const hal::Sample& sample) {
+  std::cout << "    {";
+  write_fields(sample);
+  std::cout << "},\n";
+}
+
+void write_initialiser(const hal::VibrationSample& sample) {
+  std::cout << "    {{";
+  write_fields(sample);
+  std::cout << "}, " << sample.in_phase << ", " << sample.quadrature << ", "
+            << sample.vibration_at_rail << ", " << sample.vibration_fresh << "},\n";
+}
+
+enum class Form { lines, header };
+
 class WritingPort final : public loop::ControlPort {
- public:
-  using Write = void (*)(const hal::Sample&, const hal::Drive&);
-
-  WritingPort(std::unique_ptr<loop::ControlPort> port, Write write)
-      : port_(std::move(port)), write_(write) {}
-
-  void set_target(double friction_ratio) override { port_->set_target(friction_ratio); }
-
-  hal::Drive exchange(const hal::Sample& sample) override {
-    const hal::Drive drive = port_->exchange(sample);
-    write_(sample, drive);
+  template <class Sample>
+  auto answer(const Sample& sample) {
+    const auto drive = port_->exchange(sample);
+    if (form_ == Form::lines) {
+      write_line(sample, drive);
+    } else {
+      write_initialiser(sample);
+    }
     return drive;
   }
 
+ public:
+  WritingPort(std::unique_ptr<loop::ControlPort> port, Form form)
+      : port_(std::move(port)), form_(form) {}
+
+  void set_target(double friction_ratio) override { port_->set_target(friction_ratio); }
+
+  hal::Drive exchange(const hal::Sample& sample) override { return answer(sample); }
   hal::ResonantDrive exchange(const hal::VibrationSample& sample) override {
-    const hal::ResonantDrive drive = port_->exchange(sample);
-    write_line(sample, drive);
-    return drive;
+    return answer(sample);
   }
 
   std::vector<numeric::SignalRecord> signals() const override { return port_->signals(); }
 
  private:
   std::unique_ptr<loop::ControlPort> port_;
-  Write write_;
+  Form form_;
 };
 
+configure::Experiment read(const std::vector<std::string>& words) {
+  return experiment::read_file(words.front(), {words.begin() + 1, words.end()});
+}
+
 /// @return hash of the commands
-std::uint64_t write(const std::vector<std::string>& words, WritingPort::Write write_step) {
-  const configure::Experiment experiment =
-      experiment::read_file(words.front(), {words.begin() + 1, words.end()});
-  WritingPort port(loop::make_control_port(experiment.nominal, *experiment.design), write_step);
+std::uint64_t write(const configure::Experiment& experiment, Form form) {
+  WritingPort port(loop::make_control_port(experiment.nominal, *experiment.design), form);
   return loop::run(experiment.plant, *experiment.design, port).control->trace_hash;
 }
 
-void write_header(const std::vector<std::string>& words) {
+void write_header(const configure::Experiment& experiment) {
   std::cout << "#pragma once\n\n#include <cstdint>\n\n#include \"hal/board.hpp\"\n\n"
                "namespace sonoglide::recorded {\n\n"
-               "inline constexpr hal::Sample samples[] = {\n";
-  const std::uint64_t hash = write(words, write_initialiser);
+               "inline constexpr hal::"
+            << (experiment.nominal.sensor.vibration ? "VibrationSample" : "Sample")
+            << " samples[] = {\n";
+  const std::uint64_t hash = write(experiment, Form::header);
   std::cout << "};\ninline constexpr std::uint64_t trace_hash = " << hash
             << "U;\n\n}  // namespace sonoglide::recorded\n";
 }
@@ -101,9 +121,9 @@ int main(int count, char** words) {
   try {
     const std::vector<std::string> all(words + 1, words + count);
     if (all.at(0) == "--header") {
-      sonoglide::write_header({all.begin() + 1, all.end()});
+      sonoglide::write_header(sonoglide::read({all.begin() + 1, all.end()}));
     } else {
-      sonoglide::write(all, sonoglide::write_line);
+      sonoglide::write(sonoglide::read(all), sonoglide::Form::lines);
     }
     return 0;
   } catch (const std::exception& error) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+
+#include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -15,6 +17,11 @@ class FullDrive {
   explicit FullDrive(const Parameters&) {}
 
   static constexpr Scalar highest() { return numeric::from_code<Scalar>(INT32_MAX); }
+
+  /// A drive that knows no ceiling, as it is.
+  static constexpr Request<Scalar> held(const Request<Scalar>& driven, Limit /*named*/) {
+    return driven;
+  }
 };
 
 template <class Scalar>
@@ -32,6 +39,16 @@ class DriveLimit {
   explicit DriveLimit(const Parameters& parameters) : parameters_(parameters) {}
 
   Scalar highest() const { return parameters_.highest; }
+
+  /// A drive that knows no ceiling, of either sign, held below this one.
+  /// @param named  limit of a drive that would be larger
+  Request<Scalar> held(const Request<Scalar>& driven, Limit named) const {
+    if (!(parameters_.highest < FullDrive<Scalar>::highest()) ||
+        numeric::abs(driven.amplitude) <= parameters_.highest) {
+      return driven;
+    }
+    return {numeric::clamp_magnitude(driven.amplitude, parameters_.highest), named};
+  }
 
  private:
   Parameters parameters_;

@@ -100,6 +100,13 @@ class BiasedSensorlessVibration : public SensorlessVibration<ScalarT, MaxDelay, 
   /// See Controller::settle_at.
   void settle_at(const Parameters& parameters) { Sensorless::settle_at(parameters.vibration); }
 
+  void restart(bool rested) {
+    Sensorless::restart(rested);
+    if (rested) {
+      past_bias_.clear();
+    }
+  }
+
   void before() {
     Sensorless::before();
     observer_.displace(displaced(past_bias_.sampled(), past_bias_.sampled(1)));

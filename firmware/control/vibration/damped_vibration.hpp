@@ -61,13 +61,16 @@ class DampedVibration : public ModeDamping<ScalarT, MaxDelay, 1, ModeObserver<Sc
         noise_(parameters.settled),
         missing_below_(parameters.missing) {}
 
-  void restart(bool /*rested*/) {
+  void restart(bool rested) {
     observer_.restart();
     quarter_offset_ = {};
     missing_ = 0;
     lost_ = 0;
     settled_ = false;
     this->at_most_ = false;
+    if (rested) {
+      past_.clear();
+    }
   }
 
   /// Takes a sample of usable numbers.

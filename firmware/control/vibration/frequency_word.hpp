@@ -32,6 +32,9 @@ class FrequencyWord {
       : fine_steps_(numeric::rescaled(numeric::floating(parameters.steps), fine_bits)),
         deviation_(numeric::floating(parameters.deviation)) {}
 
+  /// Back to the start.
+  void restart() { count_ = 0; }
+
   /// Steps from the start.
   std::int32_t steps() const { return count_; }
 

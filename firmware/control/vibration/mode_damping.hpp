@@ -32,6 +32,8 @@ class ModeDamping : public VibrationPart<ScalarT> {
     observer_.settle_at(parameters.observer);
   }
 
+  static constexpr Scalar highest(Scalar /*ceiling*/) { return largest(); }  // of a velocity
+
   /// The frequency stays that of the start.
   void after(const DriveCommand<Scalar>& command) { past_.append(command.amplitude); }
 

@@ -79,11 +79,15 @@ class ResonantVibration : public VibrationPart<ScalarT> {
         current_(parameters.current),
         past_(parameters.delay) {}
 
-  void restart(bool /*rested*/) {
+  void restart(bool rested) {
     resonance_.restart();
     missing_ = 0;
     lost_ = 0;
     settled_ = false;
+    if (rested) {
+      word_.restart();
+      past_.clear();
+    }
   }
 
   /// Takes a sample of usable numbers.
@@ -104,6 +108,8 @@ class ResonantVibration : public VibrationPart<ScalarT> {
     lost_ -= lost_ > 0 ? 1 : 0;
     return Fault::none;
   }
+
+  static constexpr Scalar highest(Scalar /*ceiling*/) { return whole(); }  // of a velocity
 
   /// The drive that brings the velocity to a wanted one in [0, 1].
   template <class Shaper>

@@ -94,10 +94,6 @@ class SensorlessVibration : public ModeDamping<ScalarT, MaxDelay, 2, SensorlessO
     }
   }
 
-  static constexpr Scalar highest(Scalar /*ceiling*/) {
-    return numeric::from_code<Scalar>(INT32_MAX);  // of a velocity
-  }
-
   /// The drive that brings the velocity to a wanted one in [0, 1].
   template <class Shaper>
   Request<Scalar> drive(Scalar velocity, const Shaper& /*shaper*/, Scalar ceiling) {

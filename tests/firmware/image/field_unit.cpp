@@ -72,8 +72,8 @@ template <class Supervisor, class Service>
 int main() {
 #ifdef WITH_LINK
   static constexpr app::FieldDesign<configuration::Parts> design(
-      configuration::parameters, configuration::target_steps[0].target, configuration::design,
-      configuration::step_period_s, app::default_timeout_ms);
+      configuration::parameters, app::first_target(configuration::target_steps),
+      configuration::design, configuration::step_period_s, app::default_timeout_ms);
   Flash flash;
   ByteLink bytes;
   app::Unit unit(design, flash);
@@ -82,7 +82,7 @@ int main() {
 #else
   app::Supervisor<sonoglide::control::Controller<configuration::Parts> > supervisor(
       configuration::parameters);
-  supervisor.set_target(configuration::target_steps[0].target);
+  supervisor.set_target(app::first_target(configuration::target_steps));
   app::NoService service;
   run(supervisor, service);
 #endif
