@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/app/identity.hpp"
 #include "firmware/app/mismatch.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/link/frame.hpp"
@@ -30,7 +31,8 @@ namespace sonoglide::app {
 /// @tparam ByteLink   see hal/board.hpp.
 /// @tparam MostBytes  that a service takes in and sends at most: what comes between two services, see
 ///                    hal::bytes_in. 32 will do for 115200 baud and a service each 2.6 ms.
-template <class UnitT, class ByteLink, std::size_t MostBytes = 32>
+/// @tparam Product    what the unit says of itself: see Unnamed.
+template <class UnitT, class ByteLink, std::size_t MostBytes = 32, class Product = Unnamed>
 class LinkService {
   static_assert(hal::holds_two_services<ByteLink, MostBytes>,
                 "the ring under a byte link holds two services' worth");
@@ -177,7 +179,7 @@ class LinkService {
                        handles<link::ReadParameter>(request) ||
                        handles<link::WriteParameter>(request) || handles<link::Restart>(request) ||
                        handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
-                       handles<link::Hello>(request);
+                       handles<link::Hello>(request) || handles<link::ReadIdentity>(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
     }
@@ -210,6 +212,12 @@ class LinkService {
 
   void carry_out(const link::Hello& request) {
     answer(link::Greeted{request.session, unit_.design()});
+  }
+
+  void carry_out(const link::ReadIdentity& /*request*/) {
+    constexpr auto board = padded<link::most_name_characters>(Product::board);
+    answer(link::Identity{version.major_number, version.minor_number, version.patch_number,
+                          unit_.design(), Product::serial_number(), board});
   }
 
   void carry_out(const link::SetTarget& request) {

@@ -6,6 +6,7 @@
 
 #include "controller_configuration.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
@@ -31,8 +32,12 @@ constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
     configuration::design, configuration::step_period_s, app::default_timeout_ms);
 
+struct Product : app::Unnamed {
+  static constexpr const char* board = SONOGLIDE_BOARD_NAME;
+};
+
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;
-using Service = app::LinkService<Unit, Hardware::ByteLink>;
+using Service = app::LinkService<Unit, Hardware::ByteLink, 32, Product>;
 using Loop = app::TimedLoop<Unit::Supervisor, Hardware::Board, Hardware::Watchdog, Service>;
 
 Loop* loop;  // set before the carrier interrupts

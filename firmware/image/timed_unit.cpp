@@ -6,6 +6,7 @@
 
 #include "controller_configuration.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
@@ -33,6 +34,10 @@ constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
     configuration::design, period_s, timeout_ms);
 
+struct Product : app::Unnamed {
+  static constexpr const char* board = SONOGLIDE_BOARD_NAME;
+};
+
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
 static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks);
@@ -45,7 +50,7 @@ int main() {
   Hardware::Flash flash;
   app::Unit unit(design, flash);
   app::LinkService<decltype(unit), Hardware::ByteLink,
-                   sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s)>
+                   sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>
       service(unit, bytes);
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::TimedLoop loop(unit.supervisor(), board, watchdog, service);

@@ -5,6 +5,7 @@
 /// (hal::Sample).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -220,9 +221,43 @@ struct Greeted {
   }
 };
 
+/// Asks for Identity.
+struct ReadIdentity {
+  static constexpr std::uint8_t kind = 0x0A;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+inline constexpr std::size_t most_name_characters = 16;
+
+/// What a unit is.
+struct Identity {
+  static constexpr std::uint8_t kind = ReadIdentity::kind | answer_bit;
+  std::uint8_t major_number;  ///< of the firmware's version, as the two that follow
+  std::uint8_t minor_number;
+  std::uint8_t patch_number;
+  std::uint32_t design;                          ///< see Greeted
+  std::uint32_t serial_number;                   ///< 0: none was given
+  std::array<char, most_name_characters> board;  ///< its name, with zeros behind it
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.major_number);
+    visit(message.minor_number);
+    visit(message.patch_number);
+    visit(message.design);
+    visit(message.serial_number);
+    for (auto& character : message.board) {
+      visit(character);
+    }
+  }
+};
+
 /// Asks for what may have changed since, and changes nothing: to be answered anew each time.
 constexpr bool is_reading(std::uint8_t kind) {
-  return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind;
+  return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind ||
+         kind == ReadIdentity::kind;
 }
 
 enum class Reason : std::uint8_t {

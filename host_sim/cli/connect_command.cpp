@@ -69,6 +69,7 @@ void connect(const ConnectOptions& options) {
   unit::Console console(link);
   const bool typed = isatty(STDIN_FILENO) == 1;
   if (typed && !options.quiet) {
+    print(console.identity());
     print("connected; help lists the commands, Ctrl-D leaves");
   }
   TypedLines lines;

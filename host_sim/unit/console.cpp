@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <sstream>
@@ -22,7 +23,7 @@ using std::chrono_literals::operator""s;
 constexpr std::chrono::milliseconds longest_save = 12s;
 
 constexpr const char* help_text =
-    "status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+    "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
 
 std::string decimal(std::uint32_t value, int places) {
   std::array<char, encoding::most_decimal_characters> text{};
@@ -74,6 +75,15 @@ std::string text_of(const link::Telemetry& told) {
   return text;
 }
 
+std::string text_of(const link::Identity& told) {
+  const std::string board(told.board.begin(),
+                          std::find(told.board.begin(), told.board.end(), '\0'));
+  return fmt::format("{}firmware {}.{}.{}, design {:#010x}, serial number {}",
+                     board.empty() ? "" : process::printable(board) + ", ", told.major_number,
+                     told.minor_number, told.patch_number, told.design,
+                     told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
+}
+
 }  // namespace
 
 std::vector<std::string> Console::carry_out(const std::string& line) {
@@ -87,6 +97,9 @@ std::vector<std::string> Console::carry_out(const std::string& line) {
     case 0:
       return {};
     case 1:
+      if (command == "identity") {
+        return {identity()};
+      }
       if (command == "status") {
         return status();
       }
@@ -126,6 +139,14 @@ std::vector<std::string> Console::carry_out(const std::string& line) {
       break;
   }
   return refuse(fmt::format("unknown; there are: {}", help_text));
+}
+
+std::string Console::identity() {
+  const auto result = unit_.ask<link::Identity>(link::ReadIdentity{});
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    return refuse(*refusal, 0).front();
+  }
+  return text_of(std::get<link::Identity>(result));
 }
 
 std::string Console::tell_news() {

@@ -20,6 +20,10 @@ class Console {
   /// @throws process::ProcessError  the unit does not answer
   std::vector<std::string> carry_out(const std::string& line);
 
+  /// What the unit is, in words.
+  /// @throws process::ProcessError  the unit does not answer
+  std::string identity();
+
   /// A sign of life to the unit.
   /// @return a line on each new fault that it finds, else nothing
   /// @throws process::ProcessError  the unit does not answer

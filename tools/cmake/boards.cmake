@@ -41,7 +41,8 @@ function(sonoglide_images suffix)
       MEMORY ${IMAGE_MEMORY} USES ${IMAGE_USES})
     target_compile_definitions(${name}${suffix} PRIVATE
       "SONOGLIDE_BOARD_CLASS=sonoglide::hal::${IMAGE_CLASS}"
-      "SONOGLIDE_BOARD_HEADER=\"${IMAGE_HEADER}\"")
+      "SONOGLIDE_BOARD_HEADER=\"${IMAGE_HEADER}\""
+      "SONOGLIDE_BOARD_NAME=\"${SONOGLIDE_BOARD}\"")
   endforeach()
 endfunction()
 

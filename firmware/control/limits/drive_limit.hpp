@@ -41,6 +41,7 @@ class DriveLimit {
   Scalar highest() const { return parameters_.highest; }
 
   /// A drive that knows no ceiling, of either sign, held below this one.
+  /// @param driven  the drive that is asked for
   /// @param named  limit of a drive that would be larger
   Request<Scalar> held(const Request<Scalar>& driven, Limit named) const {
     if (!(parameters_.highest < FullDrive<Scalar>::highest()) ||

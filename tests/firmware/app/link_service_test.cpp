@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "firmware/app/timed_loop.hpp"
@@ -99,7 +101,7 @@ class PoweredUnit {
   }
 
   /// Of one byte each way, so that every byte has a period of its own.
-  using Service = LinkService<TestedUnit, Wire, 1>;
+  using Service = LinkService<TestedUnit, Wire, 1, TestedProduct>;
 
   Service service_{unit, wire};
   TimedLoop<TestedUnit::Supervisor, TimedBoard, CountingWatchdog, Service> loop_{
@@ -141,6 +143,25 @@ TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
   EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, numeric::to_code(1e-3));
   EXPECT_EQ(told.settling, static_cast<std::uint8_t>(control::Settling::settled));
   EXPECT_NEAR(told.mismatch, 1000, 1);
+}
+
+TEST(LinkServiceTest, SaysWhatItIs) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  const auto told = powered.ask<link::Identity>(link::ReadIdentity{});
+  EXPECT_EQ(std::to_string(told.major_number) + '.' + std::to_string(told.minor_number) + '.' +
+                std::to_string(told.patch_number),
+            SONOGLIDE_VERSION);
+  EXPECT_EQ(told.design, field_design.design());
+  EXPECT_EQ(told.serial_number, 4711U);
+  EXPECT_STREQ(told.board.data(), "test-stand");
+}
+
+TEST(LinkServiceTest, HasNoNameWhereNoneWasGiven) {
+  EXPECT_STREQ(Unnamed::board, "");
+  EXPECT_EQ(Unnamed::serial_number(), 0U);
+  EXPECT_EQ(padded<4>(Unnamed::board), (std::array<char, 4>{}));
+  EXPECT_EQ(padded<4>("unit"), (std::array<char, 4>{'u', 'n', 'i', 't'}));
 }
 
 TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
@@ -419,14 +440,14 @@ TEST(LinkServiceTest, ALateOrReusedNumberIsRefusedWithTheLast) {
 TEST(LinkServiceTest, UnknownAndMisshapenRequestsAreRefused) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
-  for (const int kind : {0, 10, 0x7F, 0x81, 0xFF}) {
+  for (const int kind : {0, 0x3F, 0x7F, 0x81, 0xFF}) {
     link::Frame frame;
     frame.kind = static_cast<std::uint8_t>(kind);
     frame.sequence = ++powered.sequence;
     powered.put(frame);
     expect_refusal(powered.answers().at(0), frame.kind, Reason::unknown_request, 0, 0);
   }
-  for (std::uint8_t kind = 1; kind < 10; ++kind) {
+  for (std::uint8_t kind = 1; kind <= link::ReadIdentity::kind; ++kind) {
     link::Frame frame;
     frame.kind = kind;
     frame.sequence = ++powered.sequence;

@@ -52,6 +52,17 @@ ParameterValue parameter_value() {
   return message;
 }
 
+Identity identity() {
+  Identity message{};
+  message.major_number = 1;
+  message.minor_number = 2;
+  message.patch_number = 3;
+  message.design = 0x89abcdef;
+  message.serial_number = 4711;
+  message.board = {'r', 'a', 'i', 'l', '-', '2'};
+  return message;
+}
+
 template <class Message>
 Message of_target() {
   Message message{};
@@ -110,6 +121,9 @@ TEST(MessageBytes, AreThoseOfTheReference) {
       {frame_of(Confirmed{}, 8), "000402880805a7d7b2ac00"},
       {frame_of(Hello{0x1234}, 9), "0004020909073412ecaf81c400"},
       {frame_of(Greeted{0x1234, 0x89abcdef}, 9), "00040289090b3412efcdab89f69ef17900"},
+      {frame_of(ReadIdentity{}, 10), "0004020a0a05cb7a357c00"},
+      {frame_of(identity(), 10),
+       "0004028a0a0a010203efcdab89671201077261696c2d32010101010101010101055f16594500"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {

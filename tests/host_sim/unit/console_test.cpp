@@ -1,6 +1,7 @@
 /// A person at the host program and a unit at the other end of a serial device.
 #include "host_sim/unit/console.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <unistd.h>
@@ -69,6 +70,8 @@ class ServedUnit {
  public:
   explicit ServedUnit(const PseudoTerminal& terminal) : link_(terminal) {}
 
+  static constexpr std::uint32_t design() { return design_.design(); }
+
  private:
   static constexpr app::FieldDesign<app::Parts> design_{app::designed, 0.2F, 1,
                                                         app::carrier_period_s, 0};
@@ -77,9 +80,9 @@ class ServedUnit {
   app::TimedBoard board_;
   app::CountingWatchdog watchdog_;
   TerminalLink link_;
-  app::LinkService<app::TestedUnit, TerminalLink> service_{unit_, link_};
-  app::TimedLoop<app::TestedUnit::Supervisor, app::TimedBoard, app::CountingWatchdog,
-                 app::LinkService<app::TestedUnit, TerminalLink>>
+  using Service = app::LinkService<app::TestedUnit, TerminalLink, 32, app::TestedProduct>;
+  Service service_{unit_, link_};
+  app::TimedLoop<app::TestedUnit::Supervisor, app::TimedBoard, app::CountingWatchdog, Service>
       loop_{unit_.supervisor(), board_, watchdog_, service_};
   Device served_{[this] {
     loop_.serve();
@@ -117,6 +120,12 @@ TEST_F(ConsoleTest, StartsStopsAndSaysHowTheUnitIs) {
   EXPECT_EQ(console_.refused(), 1U);
 }
 
+TEST_F(ConsoleTest, SaysWhatTheUnitIs) {
+  EXPECT_EQ(line_of("identity"),
+            fmt::format("test-stand, firmware 0.1.0, design {:#010x}, serial number 4711",
+                        served_.design()));
+}
+
 TEST_F(ConsoleTest, ReadsAndWritesParametersByName) {
   const Lines all = ask("params");
   ASSERT_EQ(all.size(), app::parameter_count);
@@ -137,7 +146,8 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("set gain 1").find("unknown parameter; there are: target, drive_limit,"), 0U);
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
-      "status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+      "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
+      "set NAME VALUE";
   EXPECT_EQ(line_of("help"), commands);
   for (const char* unknown : {"go", "target", "stop now", "set a", "set a 1 2"}) {
     EXPECT_EQ(line_of(unknown), "unknown; there are: " + commands) << unknown;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/identity.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/control/controller.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
@@ -26,6 +27,11 @@ using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
                              control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
                              control::NoShaping<Scalar>, control::IntegralRegulator<Scalar, 1>>;
 using TestedUnit = Unit<Parts, SimulatedFlash>;
+
+struct TestedProduct : Unnamed {
+  static constexpr const char* board = "test-stand";
+  static std::uint32_t serial_number() { return 4711; }
+};
 
 inline constexpr control::Controller<Parts>::Parameters designed = [] {
   control::Controller<Parts>::Parameters parameters{};
