@@ -3,8 +3,10 @@
 #include SONOGLIDE_BOARD_HEADER
 
 #include <cstdint>
+#include <type_traits>
 
 #include "controller_configuration.hpp"
+#include "firmware/app/exchange.hpp"
 #include "firmware/app/field_parameters.hpp"
 #include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
@@ -19,9 +21,13 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
-static_assert(
-    !configuration::Parts::Vibration::observed,
-    "an emulated board has no vibration; a board of a product fills hal::VibrationSample");
+static_assert(!configuration::Parts::Vibration::observed,
+              "an emulated board has no vibration for sensor.vibration; a board of a product fills "
+              "hal::VibrationSample");
+
+static_assert(!std::is_same_v<app::DriveOf<sonoglide::control::Controller<configuration::Parts>>,
+                              sonoglide::hal::BiasedDrive>,
+              "an emulated board has no output for a bias: leave out drive.bias_limit_N");
 
 /// Of the loop; the carrier is derived from the same clock.
 constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
@@ -40,7 +46,8 @@ struct Product : app::Unnamed {
 
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
-static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks);
+static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks,
+              "the timer of this board cannot make drive.frequency_Hz");
 
 }  // namespace
 

@@ -8,16 +8,17 @@
 #include <vector>
 
 #include "host_sim/emulated/image.hpp"
+#include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::cli {
 
 namespace {
 
-std::string check_among(const std::vector<emulated::EmulatedBoard>& boards,
-                        const std::string& name) {
+template <class Board>
+std::string check_among(const std::vector<Board>& boards, const std::string& name) {
   std::string allowed;
-  for (const emulated::EmulatedBoard& board : boards) {
+  for (const Board& board : boards) {
     if (board.name == name) {
       return {};
     }
@@ -42,6 +43,10 @@ std::string check_any_board(const std::string& name) {
   const auto& others = emulated::carrier_boards();
   boards.insert(boards.end(), others.begin(), others.end());
   return check_among(boards, name);
+}
+
+std::string check_unit_board(const std::string& name) {
+  return check_among(emulated::unit_boards(), name);
 }
 
 void require_emulator(const emulated::EmulatedBoard& board) {

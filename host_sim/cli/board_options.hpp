@@ -13,6 +13,9 @@ std::string check_board(const std::string& name);
 /// The same of those too that make the carrier themselves.
 std::string check_any_board(const std::string& name);
 
+/// The same of those that a unit is built for.
+std::string check_unit_board(const std::string& name);
+
 /// What would stop the run later stops it before anything is built.
 /// @throws process::ProcessError  the board's emulator, or a package of it, is not installed
 void require_emulator(const emulated::EmulatedBoard& board);

@@ -14,6 +14,7 @@ namespace sonoglide::cli {
 // with the exit code that program.cpp gives it; nothing was written then.
 void add_run_command(CLI::App& program);
 void add_pil_command(CLI::App& program);
+void add_image_command(CLI::App& program);
 void add_configure_command(CLI::App& program);
 /// Talks to a unit until its standard input ends.
 void add_connect_command(CLI::App& program);
@@ -37,11 +38,14 @@ void add_complete_command(CLI::App& program);
 
 /// In the order of the help.
 inline constexpr std::array commands = {
-    add_run_command,        add_pil_command,        add_connect_command,
-    add_configure_command,  add_ratio_command,      add_sweep_command,
-    add_robust_command,     add_paper_command,      add_work_precision_command,
-    add_stability_command,  add_arithmetic_command, add_design_command,
-    add_identify_command,   add_fmu_command,        add_schema_command,
+    add_run_command,        add_pil_command,
+    add_image_command,      add_connect_command,
+    add_configure_command,  add_ratio_command,
+    add_sweep_command,      add_robust_command,
+    add_paper_command,      add_work_precision_command,
+    add_stability_command,  add_arithmetic_command,
+    add_design_command,     add_identify_command,
+    add_fmu_command,        add_schema_command,
     add_completion_command, add_complete_command,
 };
 

@@ -18,6 +18,7 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/usage.hpp"
 #include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/studies/identify/friction/candidate.hpp"
 
@@ -28,12 +29,21 @@ void offer(std::string_view word, std::string_view meaning) {
   fmt::print("{}\t{}\n", word, meaning);
 }
 
-void offer_boards() {
+template <class Board>
+void offer_names(const std::vector<Board>& boards) {
+  for (const Board& board : boards) {
+    fmt::print("{}\n", board.name);
+  }
+}
+
+/// @param command  whose option it is
+void offer_boards(const CLI::App& command) {
   fmt::print("words\n");
-  for (const auto* boards : {&emulated::emulated_boards(), &emulated::carrier_boards()}) {
-    for (const emulated::EmulatedBoard& board : *boards) {
-      fmt::print("{}\n", board.name);
-    }
+  if (command.get_name() == "image") {
+    offer_names(emulated::unit_boards());
+  } else {
+    offer_names(emulated::emulated_boards());
+    offer_names(emulated::carrier_boards());
   }
 }
 
@@ -72,10 +82,10 @@ void offer_alternatives(const std::string& type) {
 }
 
 /// The value of an option, or an argument, by the name that its type has in the help.
-void offer_value(const CLI::Option& option, const std::string& begun) {
+void offer_value(const CLI::App& command, const CLI::Option& option, const std::string& begun) {
   const std::string type = option.get_type_name();
   if (option.check_lname("board")) {
-    offer_boards();
+    offer_boards(command);
   } else if (option.check_lname("law")) {
     offer_laws();
   } else if (type.find('=') != std::string::npos) {
@@ -84,7 +94,7 @@ void offer_value(const CLI::Option& option, const std::string& begun) {
       offer("velocity_ratio=", "sliding velocity over peak vibration velocity");
     }
     offer_scene_keys(begun);
-  } else if (type.find('|') != std::string::npos) {
+  } else if (type.find('|') != std::string::npos && type.rfind("FILE", 0) != 0) {
     offer_alternatives(type);
   } else if (type == "DIR") {
     fmt::print("folders\n");
@@ -113,7 +123,7 @@ void offer_commands_or_argument(const CLI::App& command, const std::string& begu
   }
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_positional()) {
-      offer_value(*option, begun);
+      offer_value(command, *option, begun);
     }
   }
 }
@@ -140,7 +150,7 @@ void offer_next(const CLI::App& program, const std::vector<std::string>& words,
     }
   }
   if (option != nullptr) {
-    offer_value(*option, begun);
+    offer_value(*command, *option, begun);
   } else if (begun.rfind('-', 0) == 0) {
     offer_options(*command);
   } else {

@@ -28,21 +28,22 @@ const std::vector<EmulatedBoard>& emulated_boards() {
   constexpr std::string_view arm = "qemu-system-arm";
   constexpr std::string_view riscv = "qemu-system-riscv32";
   static const std::vector<EmulatedBoard> boards = {
-      {"microbit", "Cortex-M0", "arm-cortex-m0", arm, {"-machine", "microbit"}, system_timer(16e6)},
-      {"mps2-an385", "Cortex-M3", "arm-cortex-m3", arm, mps2("mps2-an385"), system_timer(25e6)},
-      {"mps2-an386", "Cortex-M4F", "arm-cortex-m4f", arm, mps2("mps2-an386"), system_timer(25e6)},
-      {"netduinoplus2",
-       "Cortex-M4F",
-       "arm-cortex-m4f",
+      {{"microbit", "Cortex-M0", "arm-cortex-m0"},
+       arm,
+       {"-machine", "microbit"},
+       system_timer(16e6)},
+      {{"mps2-an385", "Cortex-M3", "arm-cortex-m3"}, arm, mps2("mps2-an385"), system_timer(25e6)},
+      {{"mps2-an386", "Cortex-M4F", "arm-cortex-m4f"}, arm, mps2("mps2-an386"), system_timer(25e6)},
+      {{"netduinoplus2", "Cortex-M4F", "arm-cortex-m4f"},
        arm,
        {"-machine", "netduinoplus2"},
        system_timer(168e6)},
-      {"mps2-an500", "Cortex-M7", "arm-cortex-m7", arm, mps2("mps2-an500"), system_timer(25e6),
-       true},
-      {"mps2-an505", "Cortex-M33", "arm-cortex-m33", arm, mps2("mps2-an505"), system_timer(20e6)},
-      {"riscv32-virt",
-       "RV32IMAC",
-       "riscv-rv32imac",
+      {{"mps2-an500", "Cortex-M7", "arm-cortex-m7", true},
+       arm,
+       mps2("mps2-an500"),
+       system_timer(25e6)},
+      {{"mps2-an505", "Cortex-M33", "arm-cortex-m33"}, arm, mps2("mps2-an505"), system_timer(20e6)},
+      {{"riscv32-virt", "RV32IMAC", "riscv-rv32imac"},
        riscv,
        {"-machine", "virt", "-bios", "none"},
        retired_instructions},
@@ -52,7 +53,7 @@ const std::vector<EmulatedBoard>& emulated_boards() {
 
 const std::vector<EmulatedBoard>& carrier_boards() {
   static const std::vector<EmulatedBoard> carriers = {
-      {"pico", "Cortex-M0+", "arm-cortex-m0plus", "node", {}, 1.0, false, "_scene"}};
+      {{"pico", "Cortex-M0+", "arm-cortex-m0plus"}, "node", {}, 1.0, "_scene"}};
   return carriers;
 }
 

@@ -7,16 +7,19 @@
 
 namespace sonoglide::emulated {
 
-struct EmulatedBoard {
-  std::string_view name;       ///< of the board, its configure preset and its images' folder
-  std::string_view core;       ///< for a reader
-  std::string_view toolchain;  ///< file in tools/toolchains, without its ending
-  std::string_view emulator;   ///< program, to be found in PATH
+/// What an image is built for.
+struct ImageBoard {
+  std::string_view name;         ///< of the board, its configure preset and its images' folder
+  std::string_view core;         ///< for a reader
+  std::string_view toolchain;    ///< file in tools/toolchains, without its ending
+  bool computes_double = false;  ///< its floating-point unit does, so that float64 can be built
+};
+
+struct EmulatedBoard : ImageBoard {
+  std::string_view emulator;                        ///< program, to be found in PATH
   std::vector<std::string_view> machine_arguments;  ///< what makes the emulator this board
-  double counts_per_instruction;  ///< unit of a drive frame's count, under emulator_command()
-  bool computes_double = false;   ///< its floating-point unit does, so that float64 can be built
-  std::string_view image_suffix =
-      {};  ///< of an image's name, behind that of its controller's folder
+  double counts_per_instruction;       ///< unit of a drive frame's count, under emulator_command()
+  std::string_view image_suffix = {};  ///< of what runs in lockstep, see build_image()
 };
 
 /// Every board in lockstep over semihosting, from the smallest core to the largest, the other instruction
@@ -45,7 +48,7 @@ struct CrossTools {
   std::string package;  ///< of Debian, that has the compiler
 };
 
-inline CrossTools cross_tools(const emulated::EmulatedBoard& board) {
+inline CrossTools cross_tools(const ImageBoard& board) {
   return board.toolchain.substr(0, 4) == "arm-"
              ? CrossTools{"arm-none-eabi-", "gcc-arm-none-eabi"}
              : CrossTools{"riscv64-unknown-elf-", "gcc-riscv64-unknown-elf"};

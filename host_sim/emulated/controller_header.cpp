@@ -24,7 +24,7 @@
 
 namespace sonoglide::emulated {
 
-void require_arithmetic(const scene::Scene& scene, const emulated::EmulatedBoard& board) {
+void require_arithmetic(const scene::Scene& scene, const ImageBoard& board) {
   const bool wanted =
       scene.controller && scene.controller->arithmetic == scene::Arithmetic::float64;
   if (!wanted || board.computes_double) {

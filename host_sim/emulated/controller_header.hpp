@@ -12,7 +12,7 @@
 namespace sonoglide::emulated {
 
 /// @throws configure::ConfigurationError  a float64 scene on a board that computes that in software
-void require_arithmetic(const scene::Scene& scene, const emulated::EmulatedBoard& board);
+void require_arithmetic(const scene::Scene& scene, const ImageBoard& board);
 
 /// @throws configure::ConfigurationError  what a board of carrier_boards() has no time for, or cannot show to
 ///         its image or do with its answers

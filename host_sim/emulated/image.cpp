@@ -57,6 +57,8 @@ fs::path own_source_tree() {
   return has_sources(installed) ? installed : fs::path(SONOGLIDE_SOURCE);
 }
 
+}  // namespace
+
 fs::path source_tree() {
   const char* named = environment("SONOGLIDE_SOURCE");
   fs::path tree = named != nullptr ? fs::absolute(named) : own_source_tree();
@@ -68,6 +70,13 @@ fs::path source_tree() {
   return tree;
 }
 
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+namespace {
+
 fs::path cache_folder() {
   if (const char* cache = environment("XDG_CACHE_HOME")) {
     return fs::absolute(cache) / "sonoglide";
@@ -76,11 +85,6 @@ fs::path cache_folder() {
     return fs::absolute(home) / ".cache/sonoglide";
   }
   fail("the image cache", "has no place; allowed: XDG_CACHE_HOME or HOME in the environment");
-}
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 void write_file(const fs::path& path, const std::string& text) {
@@ -107,11 +111,12 @@ std::vector<fs::path> image_sources(const fs::path& tree) {
 }
 
 /// What an image is made of, as a name for it.
-std::string key_of(const emulated::EmulatedBoard& board, const std::string& header,
+std::string key_of(const ImageBoard& board, std::string_view suffix, const std::string& header,
                    const fs::path& tree, const fs::path& compiler) {
   process::ContentHash hash;
   hash.add(board.name);
   hash.add(board.toolchain);
+  hash.add(suffix);
   hash.add(header);
   for (const fs::path& source : image_sources(tree)) {
     hash.add(source.string());
@@ -150,12 +155,12 @@ fs::path find_image(const fs::path& cache, const std::string& key) {
   return found;
 }
 
-std::string image_name(const emulated::EmulatedBoard& board) {
-  return fmt::format("{}{}", controller_name, board.image_suffix);
+std::string image_name(std::string_view suffix) {
+  return fmt::format("{}{}", controller_name, suffix);
 }
 
-void compile(const emulated::EmulatedBoard& board, const std::string& header, const fs::path& tree,
-             const fs::path& folder) {
+void compile(const ImageBoard& board, std::string_view suffix, const std::string& header,
+             const fs::path& tree, const fs::path& folder) {
   const fs::path controller = folder / controller_name;
   fs::create_directory(controller);
   write_file(controller / controller_header_name, header);
@@ -165,7 +170,7 @@ void compile(const emulated::EmulatedBoard& board, const std::string& header, co
                      "-DCMAKE_TOOLCHAIN_FILE=" + toolchain.string(),
                      fmt::format("-DSONOGLIDE_BOARD={}", board.name),
                      "-DSONOGLIDE_CONTROLLERS=" + controller.string()});
-  process::run_tool({"cmake", "--build", build, "--target", image_name(board)});
+  process::run_tool({"cmake", "--build", build, "--target", image_name(suffix)});
 }
 
 /// Where node finds rp2040js: in NODE_PATH, or where tools/setup puts it.
@@ -189,7 +194,8 @@ fs::path npm_folder() {
 
 }  // namespace
 
-fs::path build_image(const emulated::EmulatedBoard& board, const std::string& header) try {
+fs::path build_image(const ImageBoard& board, std::string_view suffix,
+                     const std::string& header) try {
   const fs::path tree = source_tree();
   const CrossTools tools = cross_tools(board);
   process::require_program("cmake", "cmake");
@@ -198,13 +204,13 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
   const fs::path cache = cache_folder();
   require_for_cmake(tree);
   require_for_cmake(cache);
-  const std::string key = key_of(board, header, tree, compiler);
+  const std::string key = key_of(board, suffix, header, tree, compiler);
   fs::create_directories(cache);
   fs::path image = find_image(cache, key);
   if (image.empty()) {
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
-    compile(board, header, tree, folder.path());
-    const fs::path built = folder.path() / "build/bin" / (image_name(board) + ".elf");
+    compile(board, suffix, header, tree, folder.path());
+    const fs::path built = folder.path() / "build/bin" / (image_name(suffix) + ".elf");
     // Somebody else may have done the same meanwhile, and may do so now: either image serves.
     image = find_image(cache, key);
     if (image.empty()) {
@@ -220,12 +226,19 @@ fs::path build_image(const emulated::EmulatedBoard& board, const std::string& he
            "where no other files have the names of images");
 }
 
+std::vector<std::string> node_command(const emulated::EmulatedBoard& board,
+                                      std::string_view program) {
+  const fs::path file = source_tree() / fmt::format("hal/{}/emulated/{}", board.name, program);
+  return {"env", "NODE_PATH=" + npm_folder().string(), "node", file.string()};
+}
+
 std::vector<std::string> run_command(const emulated::EmulatedBoard& board, const fs::path& image) {
   if (board.emulator != "node") {
     return emulator_command(board, image.string());
   }
-  const fs::path program = source_tree() / fmt::format("hal/{}/emulated/lockstep.cjs", board.name);
-  return {"env", "NODE_PATH=" + npm_folder().string(), "node", program.string(), image.string()};
+  std::vector<std::string> command = node_command(board, "lockstep.cjs");
+  command.push_back(image.string());
+  return command;
 }
 
 }  // namespace sonoglide::emulated

@@ -50,9 +50,16 @@ struct ImageCost {
 };
 
 /// @throws process::ProcessError  the file is no image, or the board's binutils are missing
-ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board);
+ImageCost measure_image(const std::filesystem::path& image, const ImageBoard& board);
+
+/// The bytes of a file; none where it cannot be read.
+std::string content(const std::filesystem::path& path);
 
 // From a configured controller to an image for a board.
+
+/// The source tree that images are built out of, see build_image().
+/// @throws process::ProcessError  there is none
+std::filesystem::path source_tree();
 
 /// Builds the image of a controller with the toolchain file of a board, out of the source tree that
 /// this program was built from or, where the environment variable SONOGLIDE_SOURCE names one, out
@@ -60,12 +67,19 @@ ImageCost measure_image(const std::filesystem::path& image, const emulated::Emul
 /// again by what they are made of: header, board, sources, compiler. The name of each ends with a
 /// hash of that and of the image: one that is cut short, or another, is removed and built anew.
 ///
+/// @param suffix  which of the board's images: tools/cmake/boards.cmake adds it to the controller's name
 /// @param header  as controller_header() writes it
 /// @return the image, an ELF file
 /// @throws process::ProcessError  the compiler, CMake or the sources are missing, a path is none
 ///         that CMake takes, or the build failed; what() says what to install, or has the build's
 ///         own words
-std::filesystem::path build_image(const emulated::EmulatedBoard& board, const std::string& header);
+std::filesystem::path build_image(const ImageBoard& board, std::string_view suffix,
+                                  const std::string& header);
+
+/// The command that runs one of a board's programs for node.
+/// @throws process::ProcessError  node lacks the package that emulates the board
+std::vector<std::string> node_command(const emulated::EmulatedBoard& board,
+                                      std::string_view program);
 
 /// The command that runs such an image, in lockstep over standard input and output.
 /// @throws process::ProcessError  node lacks the package that emulates the board

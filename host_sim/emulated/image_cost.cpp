@@ -3,8 +3,6 @@
 #include <elf.h>
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "host_sim/process/child_process.hpp"
 
@@ -60,14 +58,13 @@ std::uint64_t exception_frame_bytes(std::string_view elf) {
   return integer_registers + (float_unit ? float_registers : 0) + alignment;
 }
 
-ImageCost measure_image(const std::filesystem::path& image, const emulated::EmulatedBoard& board) {
-  std::ifstream file(image, std::ios::binary);
-  const std::string elf{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+ImageCost measure_image(const std::filesystem::path& image, const ImageBoard& board) {
+  const std::string elf = content(image);
   const std::string disassembly =
       process::run_tool({cross_tools(board).prefix + "objdump", "--disassemble", image.string()});
   ImageCost cost{image_size(elf), stack_bound(disassembly, "reset")};
   std::vector<std::string> handlers{"take_exception"};
-  if (!board.image_suffix.empty()) {
+  if (disassembly.find("<take_carrier>:") != std::string::npos) {
     handlers.emplace_back("take_carrier");
   }
   for (const std::string& handler : handlers) {

@@ -21,13 +21,23 @@ std::uint32_t instructions(std::uint32_t count, const emulated::EmulatedBoard& b
 }  // namespace
 
 void InstructionCount::add(std::uint32_t instructions) {
-  least_ = std::min(least_, instructions);
-  most_ = std::max(most_, instructions);
-  sum_ += instructions;
+  ++periods_[instructions];
 }
 
-loop::InstructionRange InstructionCount::over(std::uint64_t periods) const {
-  return {least_, static_cast<double>(sum_) / static_cast<double>(periods), most_};
+loop::InstructionRange InstructionCount::range() const {
+  std::uint64_t sum = 0;
+  std::uint64_t count = 0;
+  for (const auto& [instructions, periods] : periods_) {
+    sum += instructions * periods;
+    count += periods;
+  }
+  std::uint64_t below = 0;
+  const auto median = std::find_if(periods_.begin(), periods_.end(), [&](const auto& each) {
+    below += each.second;
+    return 2 * below > count;
+  });
+  return {periods_.begin()->first, static_cast<double>(sum) / static_cast<double>(count),
+          periods_.rbegin()->first, median->first};
 }
 
 ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image)
@@ -79,7 +89,7 @@ loop::ImageRecord ImageControl::shut_down() {
     record.exchanges_per_second = static_cast<double>(exchanges_ - 1) / time.count();
   }
   if (exchanges_ > 0) {
-    record.instructions = {step_.over(exchanges_), answer_.over(exchanges_)};
+    record.instructions = {step_.range(), answer_.range()};
   }
   return record;
 }
@@ -123,7 +133,7 @@ void run_on_workstation(const configure::Experiment& experiment, const loop::Pro
 loop::RunResult run_image(const configure::Experiment& experiment,
                           const emulated::EmulatedBoard& board, const std::string& header,
                           const loop::Watch& watch) {
-  const std::filesystem::path image = emulated::build_image(board, header);
+  const std::filesystem::path image = emulated::build_image(board, board.image_suffix, header);
   const emulated::ImageCost cost = emulated::measure_image(image, board);
   ImageControl controller(board, image);
   loop::RunResult result =

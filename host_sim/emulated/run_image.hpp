@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,13 +25,11 @@ namespace sonoglide::emulated {
 class InstructionCount {
  public:
   void add(std::uint32_t instructions);
-  /// @param periods  that were added
-  loop::InstructionRange over(std::uint64_t periods) const;
+  /// Over all that were added, one at least.
+  loop::InstructionRange range() const;
 
  private:
-  std::uint32_t least_ = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t most_ = 0;
-  std::uint64_t sum_ = 0;
+  std::map<std::uint32_t, std::uint64_t> periods_;  ///< by what they took
 };
 
 class ImageControl final : public loop::ControlPort {

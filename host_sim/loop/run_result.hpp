@@ -22,6 +22,7 @@ struct InstructionRange {
   std::uint32_t min;
   double mean;
   std::uint32_t max;
+  std::uint32_t median;
 };
 
 struct ImageInstructions {

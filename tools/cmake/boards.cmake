@@ -130,6 +130,14 @@ function(sonoglide_emulated_board name)
   sonoglide_images(_serial SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
     CLASS ${BOARD_SERIAL_BOARD} HEADER ${BOARD_FOLDER}/board.hpp
     USES sonoglide_emulated_board sonoglide_semihosting)
+  # By its name alone: what a unit takes, which an image of the unit itself does not tell.
+  sonoglide_images(_counted SOURCE firmware/image/counted_unit.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
+    CLASS semihosting::SemihostingBoard HEADER hal/semihosting/semihosting_board.hpp
+    USES sonoglide_timed sonoglide_processor sonoglide_semihosting)
+  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+    get_filename_component(controller "${folder}" NAME)
+    set_target_properties(${controller}_counted PROPERTIES EXCLUDE_FROM_ALL ON)
+  endforeach()
   if(BOARD_TIMED_HARDWARE)
     set(timed_main firmware/image/timed_unit.cpp)
     set(timed_images timed)

@@ -14,6 +14,11 @@ set(examples_sonoglide-run
 set(examples_sonoglide-pil
   "sonoglide pil ${target_step} --board mps2-an386"
   "Runs the controller as a firmware image on an emulated Cortex-M4F.")
+set(examples_sonoglide-image
+  "sonoglide image ${SCENES}/target_step_q31.toml --board pico --out unit.uf2"
+  "Builds the unit of a scene for a Raspberry Pi Pico."
+  "sonoglide image ${target_step} --board nucleo-g474re"
+  "The same for a Nucleo-G474RE, into out/target_step_nucleo-g474re/unit.elf.")
 set(examples_sonoglide-connect
   "sonoglide connect /dev/ttyACM0" "Talks to the unit on a serial device. The word help lists the commands."
   "echo stop | sonoglide connect /dev/ttyACM0" "Stops its drive.")

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware/control/controller.hpp"
+#include "firmware/control/interface/drive_command.hpp"
 #include "firmware/control/vibration/fed_forward.hpp"
 
 namespace sonoglide::image {
@@ -35,6 +37,9 @@ struct CarrierTicks {
                 "this board has no time to observe the vibration: leave out controller.vibration");
   static_assert(Board::has_vibration_sensor || !Parts::Vibration::observed,
                 "this board has no vibration sensor: leave out sensor.vibration");
+  static_assert(
+      !std::is_same_v<typename control::Controller<Parts>::Command, control::BiasedCommand<Scalar>>,
+      "this board has no output for a bias: leave out drive.bias_limit_N");
 
   /// @param period_s  of the carrier
   static constexpr std::uint32_t of(double period_s) {

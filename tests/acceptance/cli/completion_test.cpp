@@ -75,6 +75,8 @@ TEST_F(Completion, OffersEveryCommandWithItsOptions) {
 
 TEST_F(Completion, OffersWhatAnOptionOrAnArgumentTakes) {
   EXPECT_TRUE(has(printed("complete -- pil x --board mps2-an5"), "words\nmicrobit\n"));
+  EXPECT_TRUE(has(printed("complete -- image x --board ''"), "words\npico\n"));
+  EXPECT_EQ(printed("complete -- image x --out ''"), "files\n");
   EXPECT_EQ(printed("complete -- completion z"), "words\nbash\nzsh\nfish\n");
   EXPECT_EQ(printed("complete -- run x --set ''").find("keys\nplant.mass_kg=\tmass"), 0U);
   EXPECT_TRUE(has(printed("complete -- sweep --vary friction."), "\nfriction.law=dahl\t"));

@@ -59,7 +59,7 @@ set(SCENES "${root}/usr/share/sonoglide/scenes")
 set(DOCUMENTS "${root}/usr/share/doc/sonoglide")
 include("${SOURCE}/tools/debian/examples.cmake")
 # They take long, or talk to a unit.
-set(left_out arithmetic connect pil stability work-precision)
+set(left_out arithmetic connect image pil stability work-precision)
 file(REMOVE_RECURSE "${FOLDER}/debian_examples")
 file(MAKE_DIRECTORY "${FOLDER}/debian_examples")
 foreach(command IN LISTS commands ITEMS identify-impedance identify-friction)
@@ -88,6 +88,10 @@ if(BOARDS)
     "${root}/usr/bin/sonoglide" pil "${root}/usr/share/sonoglide/scenes/target_step.toml"
     --board mps2-an386 --out "${FOLDER}/debian_pil")
   expect("${output}" HAS "bit for bit")
+  run("${CMAKE_COMMAND}" -E env "XDG_CACHE_HOME=${FOLDER}/debian_cache"
+    "${root}/usr/bin/sonoglide" image "${root}/usr/share/sonoglide/scenes/target_step_q31.toml"
+    --board pico --out "${FOLDER}/debian_image/unit.uf2")
+  expect("${output}" HAS "B flash")
 endif()
 
 run(${dpkg} --remove ${names})

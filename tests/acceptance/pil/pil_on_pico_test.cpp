@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 
 #include "image_cache.hpp"
@@ -27,6 +28,21 @@ TEST(PilOnPicoTest, AScenesOwnImageHasTheWorkstationsCommands) {
     EXPECT_LE(pil.at("instructions_per_step").at("max"), 1900);
     EXPECT_GT(pil.at("stack_bytes_bound"), 100);
   }
+}
+
+TEST(ImageOnPicoTest, TellsClocksOfTheUnit) {
+  use_image_cache();
+  const ScratchFolder folder;
+  const Outcome outcome =
+      folder.run("image '" SONOGLIDE_SCENES "/target_step_q31.toml' --board pico");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::regex line(
+      "step: ([0-9]+) clocks in the median, ([0-9]+) at most, of 2200 in a carrier");
+  std::smatch clocks;
+  ASSERT_TRUE(std::regex_search(outcome.out, clocks, line)) << outcome.out;
+  EXPECT_GT(std::stoi(clocks[1]), 1000);
+  EXPECT_LE(std::stoi(clocks[1]), std::stoi(clocks[2]));
+  EXPECT_LT(std::stoi(clocks[2]), 2200);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 // Usage: node unit_test.cjs IMAGE SECONDS SEED   (IMAGE: an .elf or a .uf2 file)
 const assert = require('node:assert');
 const {Pico} = require('../../../hal/pico/emulated/pico.cjs');
+const {StandInContact} = require('../../../hal/pico/emulated/contact.cjs');
 const {Link, kinds} = require('./link.cjs');
 
 const longestControl = 1900; // clocks from the carrier's interrupt to its end, of 2,200
@@ -26,13 +27,11 @@ function random(below) { // xorshift32
 
 const pico = new Pico(image);
 
-// Friction moves half of the way to its value in each carrier period, as timed::StandInContact.
-let amplitude = 0;
-let friction = 0.5;
+const contact = new StandInContact();
 const noise = () => random(41) - 20;
 let oneConversion = null; // in the place of the next one of the force
 pico.input = (period, channel, turn) => {
-  const code = channel === 1 ? 2048 + 205 : Math.round(2048 + 2048 * friction) + noise();
+  const code = contact.code(channel) + noise();
   const shown = channel === 0 && turn === 2 && oneConversion !== null ? oneConversion : code;
   oneConversion = shown === code ? oneConversion : null;
   return shown;
@@ -48,8 +47,7 @@ pico.onControl = clocks => {
 };
 pico.onPeriod = (latched, late) => {
   assert.ok(!late, `the interrupt of period ${pico.periods} is late`);
-  amplitude = Math.sin(Math.PI * (latched & 0xffff) / 1100);
-  friction += ((amplitude > 0.1 ? 0.05 / amplitude : 0.5) - friction) / 2;
+  contact.live(latched);
 };
 
 let answer = null;
@@ -106,7 +104,7 @@ assert.deepStrictEqual([first.state, first.parameters, first.amplitude], [states
 let driven = 0;
 while (pico.seconds < Number(seconds)) {
   act();
-  driven += amplitude > 0.1 ? 1 : 0;
+  driven += contact.amplitude > 0.1 ? 1 : 0;
 }
 assert.ok(driven > 0, 'the unit never drives');
 assert.strictEqual(telemetry().lost, 0);
@@ -118,13 +116,13 @@ function drive() {
   ask(kinds.restart);
   pause(0.02);
   telemetry();
-  assert.ok(amplitude > 0.1, 'the unit does not drive');
+  assert.ok(contact.amplitude > 0.1, 'the unit does not drive');
 }
 for (const [code, fault] of [[2048 | 0x8000, faults.missing], [4095, faults.saturated], [0, faults.saturated]]) {
   drive();
   oneConversion = code;
   pause(60e-6);
-  assert.strictEqual(amplitude, 0);
+  assert.strictEqual(contact.amplitude, 0);
   assert.strictEqual(telemetry().fault, fault);
 }
 
@@ -145,13 +143,13 @@ const loop = 0x20041000; // above the stack
 pico.mcu.writeUint16(loop, 0xe7fe); // b .
 pico.mcu.core.PC = loop;
 const hung = pico.seconds;
-pico.runWhile(() => amplitude > 0 && pico.seconds < hung + 0.06);
-assert.strictEqual(amplitude, 0, 'a hung service goes unnoticed');
+pico.runWhile(() => contact.amplitude > 0 && pico.seconds < hung + 0.06);
+assert.strictEqual(contact.amplitude, 0, 'a hung service goes unnoticed');
 pico.runWhile(() => pico.resets === 0 && pico.mcu.clock.nanos < (hung + 0.2) * 1e9);
 assert.strictEqual(pico.resets, 1, 'the watchdog does not reset a hung unit');
 pause(0.02);
 const last = telemetry();
-assert.deepStrictEqual([last.state, last.fault, last.parameters, amplitude],
+assert.deepStrictEqual([last.state, last.fault, last.parameters, contact.amplitude],
                        [states.fault, faults.watchdogReset, 0, 0]);
 assert.strictEqual(ask(kinds.readParameter, [driveLimit, 1]).payload.readUInt32LE(2), 765432);
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/emulated/unit_image.hpp"
+
 namespace sonoglide::emulated::board_list_test {
 namespace {
 
@@ -32,7 +34,7 @@ nlohmann::json toolchains() {
 
 TEST(BoardList, EachBoardHasItsPresetWithItsToolchain) {
   const nlohmann::json presets = toolchains();
-  for (const EmulatedBoard& board : emulated_boards()) {
+  for (const ImageBoard& board : unit_boards()) {
     const std::string file = "tools/toolchains/" + std::string(board.toolchain) + ".cmake";
     ASSERT_TRUE(presets.contains(std::string(board.name))) << board.name;
     EXPECT_EQ(presets.at(std::string(board.name)), file);
@@ -61,6 +63,19 @@ TEST(BoardList, FindsABoardByItsNameAlone) {
   }
   EXPECT_EQ(find_board("mps2"), nullptr);
   EXPECT_EQ(find_board(""), nullptr);
+}
+
+TEST(BoardList, AUnitIsBuiltForEachBoardThatRunsScenes) {
+  for (const auto* boards : {&emulated_boards(), &carrier_boards()}) {
+    for (const EmulatedBoard& board : *boards) {
+      const UnitBoard* const found = find_unit_board(board.name);
+      ASSERT_NE(found, nullptr) << board.name;
+      EXPECT_EQ(found->core, board.core);
+      EXPECT_EQ(found->toolchain, board.toolchain);
+      EXPECT_EQ(found->computes_double, board.computes_double);
+    }
+  }
+  EXPECT_EQ(find_unit_board("template"), nullptr);
 }
 
 TEST(BoardList, CommandEndsInTheImage) {
