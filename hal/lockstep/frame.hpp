@@ -48,8 +48,13 @@ struct AnswerCost {
   std::uint32_t answer;  ///< from the arrival of the sample frame to the drive frame being made up
 };
 
-/// Over a serial line the board speaks first: this byte says that it is ready to receive.
+/// Over a serial line the board speaks first: this byte says that it is ready to receive. It is repeated until
+/// the first frame comes, for a host that listens later.
 inline constexpr std::uint8_t greeting = 0xa5;
+
+/// Of the counter of a board at a serial line, which has this many for a clock of its processor, see
+/// hal/cortex_m/counter.cpp; 0 if it has none.
+inline constexpr double counts_per_clock = 256.0;
 
 /// Aligned, so that a processor without unaligned access takes it by words.
 struct alignas(std::uint32_t) SampleFrame : std::array<std::uint8_t, sample_frame_size> {};

@@ -7,6 +7,8 @@
 
 #include "hal/board.hpp"
 #include "hal/bridge.hpp"
+#include "hal/lockstep/board/lockstep_board.hpp"
+#include "hal/lockstep/board/serial_link.hpp"
 #include "hal/nucleo_g474re/clocks.hpp"
 #include "hal/nucleo_g474re/control_registers.hpp"
 #include "hal/nucleo_g474re/demodulation.hpp"
@@ -266,5 +268,8 @@ struct Hardware {
   using Watchdog = nucleo_g474re::Watchdog;
   using Flash = nucleo_g474re::Flash;
 };
+
+/// In lockstep with a host at the serial line; the bridge stays off.
+using SerialBoard = lockstep::LockstepBoard<lockstep::SerialLink<Uart>, lockstep::ProcessorCounter>;
 
 }  // namespace sonoglide::hal::nucleo_g474re

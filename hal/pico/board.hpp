@@ -6,6 +6,8 @@
 
 #include "hal/board.hpp"
 #include "hal/bridge.hpp"
+#include "hal/lockstep/board/lockstep_board.hpp"
+#include "hal/lockstep/board/serial_link.hpp"
 #include "hal/pico/chip.hpp"
 
 namespace sonoglide::hal::pico {
@@ -172,5 +174,8 @@ struct Hardware {
   using Watchdog = pico::Watchdog;
   using Flash = pico::Flash;
 };
+
+/// In lockstep with a host at the serial line; the bridge stays off.
+using SerialBoard = lockstep::LockstepBoard<lockstep::SerialLink<Uart>, lockstep::ProcessorCounter>;
 
 }  // namespace sonoglide::hal::pico

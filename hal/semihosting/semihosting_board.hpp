@@ -7,7 +7,6 @@
 #include "hal/lockstep/board/lockstep_board.hpp"
 #include "hal/lockstep/frame.hpp"
 #include "hal/semihosting/semihosting.hpp"
-#include "hal/start/counter.hpp"
 #include "hal/start/image_end.hpp"
 
 namespace sonoglide::hal::semihosting {
@@ -32,13 +31,6 @@ class Link {
   std::int32_t output_ = open_standard_output();
 };
 
-/// The processor's counter; it runs from its construction on.
-class ProcessorCounter {
- public:
-  ProcessorCounter() { start_counter(); }
-  std::uint32_t read() const { return read_counter(); }
-};
-
-using SemihostingBoard = lockstep::LockstepBoard<Link, ProcessorCounter>;
+using SemihostingBoard = lockstep::LockstepBoard<Link, lockstep::ProcessorCounter>;
 
 }  // namespace sonoglide::hal::semihosting

@@ -10,8 +10,8 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/console.hpp"
-#include "host_sim/unit/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
 
 namespace sonoglide::cli {
@@ -64,7 +64,7 @@ void print(const std::string& line) {
 /// @throws process::ProcessError  the device is absent, silent or no unit; or commands of a script
 ///         were refused
 void connect(const ConnectOptions& options) {
-  unit::SerialPort port(options.device);
+  process::SerialPort port(options.device);
   unit::UnitLink link(port);
   unit::Console console(link);
   const bool typed = isatty(STDIN_FILENO) == 1;

@@ -8,11 +8,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "hal/lockstep/frame.hpp"
-
 namespace sonoglide::emulated {
-
-namespace lockstep = hal::lockstep;
 
 ImageProcess::ImageProcess(const std::vector<std::string>& command,
                            std::chrono::milliseconds patience)
@@ -29,44 +25,6 @@ ImageProcess::ImageProcess(const std::vector<std::string>& command,
   // The reading end of the samples stays open here: writing to an emulator that has died is then no
   // broken pipe, and its death shows where its answer is read.
   drives_.write_end.close();
-}
-
-void ImageProcess::await_greeting() {
-  std::uint8_t byte = 0;
-  receive(&byte, 1);
-  if (byte != lockstep::greeting) {
-    fail(fmt::format("greets with {}", byte));
-  }
-}
-
-hal::Drive ImageProcess::exchange(const hal::Sample& sample) {
-  return ask<hal::Drive>(sample);
-}
-
-hal::ResonantDrive ImageProcess::exchange(const hal::VibrationSample& sample) {
-  return ask<hal::ResonantDrive>(sample);
-}
-
-hal::BiasedDrive ImageProcess::exchange_biased(const hal::Sample& sample) {
-  return ask<hal::BiasedDrive>(sample);
-}
-
-hal::BiasedDrive ImageProcess::exchange_biased(const hal::MotionSample& sample) {
-  return ask<hal::BiasedDrive>(sample);
-}
-
-template <class Drive, class Sample>
-Drive ImageProcess::ask(const Sample& sample) {
-  const auto question = lockstep::encode(period_, sample);
-  send(question.data(), question.size());
-  typename lockstep::FrameOf<Drive>::Type answer{};
-  receive(answer.data(), answer.size());
-  if (lockstep::period(answer) != period_) {
-    fail(fmt::format("answered as for carrier period {}", lockstep::period(answer)));
-  }
-  ++period_;
-  cost_ = lockstep::cost_of(answer);
-  return lockstep::drive_of(answer);
 }
 
 void ImageProcess::send(const std::uint8_t* bytes, std::size_t size) {
@@ -116,7 +74,7 @@ void ImageProcess::wait_for_answer() {
 
 void ImageProcess::fail(const std::string& what) const {
   throw EmulatorError(
-      fmt::format("carrier period {}: the emulator {}{}", period_, what, last_words()));
+      fmt::format("carrier period {}: the emulator {}{}", period(), what, last_words()));
 }
 
 std::string ImageProcess::last_words() const {

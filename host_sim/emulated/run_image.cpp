@@ -8,14 +8,17 @@
 #include <filesystem>
 
 #include "host_sim/emulated/image.hpp"
+#include "host_sim/emulated/image_process.hpp"
+#include "host_sim/emulated/serial_image.hpp"
+#include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::emulated {
 namespace {
 
 constexpr std::chrono::seconds longest_silence{10};
 
-std::uint32_t instructions(std::uint32_t count, const emulated::EmulatedBoard& board) {
-  return static_cast<std::uint32_t>(std::lround(count / board.counts_per_instruction));
+std::uint32_t instructions(std::uint32_t count, double counts_per_instruction) {
+  return static_cast<std::uint32_t>(std::lround(count / counts_per_instruction));
 }
 
 }  // namespace
@@ -40,20 +43,18 @@ loop::InstructionRange InstructionCount::range() const {
           periods_.rbegin()->first, median->first};
 }
 
-ImageControl::ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image)
-    : board_(board), image_(emulated::run_command(board, image), longest_silence) {}
-
 void ImageControl::set_target(double /*friction_ratio*/) {}
 
 template <class Drive>
 Drive ImageControl::counted(const Drive& drive) {
+  latest_answer_ = Clock::now();
   if (exchanges_ == 0) {
-    first_answer_ = Clock::now();
+    first_answer_ = latest_answer_;
   }
   ++exchanges_;
   const hal::lockstep::AnswerCost cost = image_.latest_cost();
-  step_.add(instructions(cost.step, board_));
-  answer_.add(instructions(cost.answer, board_));
+  step_.add(instructions(cost.step, counts_per_instruction_));
+  answer_.add(instructions(cost.answer, counts_per_instruction_));
   return drive;
 }
 
@@ -77,18 +78,13 @@ std::vector<numeric::SignalRecord> ImageControl::signals() const {
   return {};
 }
 
-loop::ImageRecord ImageControl::shut_down() {
-  const std::chrono::duration<double> time = Clock::now() - first_answer_;
-  const int code = image_.shut_down();
-  if (code != 0) {
-    throw EmulatorError(fmt::format("the image left with exit code {}", code));
-  }
+loop::ImageRecord ImageControl::record() const {
+  const std::chrono::duration<double> time = latest_answer_ - first_answer_;
   loop::ImageRecord record;
-  record.board = board_.name;
   if (exchanges_ > 1) {
     record.exchanges_per_second = static_cast<double>(exchanges_ - 1) / time.count();
   }
-  if (exchanges_ > 0) {
+  if (!step_.none()) {
     record.instructions = {step_.range(), answer_.range()};
   }
   return record;
@@ -96,13 +92,19 @@ loop::ImageRecord ImageControl::shut_down() {
 
 namespace {
 
-void add_cost(const emulated::ImageCost& cost, loop::ImageRecord& record) {
-  record.flash_bytes = cost.size.flash_bytes;
-  record.ram_bytes = cost.size.ram_bytes;
-  record.stack_unbounded_by = cost.stack.unbounded_by;
-  if (cost.stack.unbounded_by.empty()) {
-    record.stack_bytes_bound = cost.stack.bytes;
+void shut_down(ImageProcess& image) {
+  const int code = image.shut_down();
+  if (code != 0) {
+    throw EmulatorError(fmt::format("the image left with exit code {}", code));
   }
+}
+
+loop::ImageMemory memory_of(const ImageCost& cost) {
+  loop::ImageMemory memory{cost.size.flash_bytes, cost.size.ram_bytes, {}, cost.stack.unbounded_by};
+  if (cost.stack.unbounded_by.empty()) {
+    memory.stack_bytes_bound = cost.stack.bytes;
+  }
+  return memory;
 }
 
 /// The image takes most of the time.
@@ -128,19 +130,47 @@ void run_on_workstation(const configure::Experiment& experiment, const loop::Pro
   result.control->friction = control.friction;
 }
 
-}  // namespace
-
-loop::RunResult run_image(const configure::Experiment& experiment,
-                          const emulated::EmulatedBoard& board, const std::string& header,
-                          const loop::Watch& watch) {
-  const std::filesystem::path image = emulated::build_image(board, board.image_suffix, header);
-  const emulated::ImageCost cost = emulated::measure_image(image, board);
-  ImageControl controller(board, image);
+/// In lockstep with an image, and on the workstation.
+loop::RunResult run_both(const configure::Experiment& experiment, ImageControl& controller,
+                         const loop::Watch& watch) {
   loop::RunResult result =
       loop::run(experiment.plant, *experiment.design, controller, of_the_image(watch));
-  result.image = controller.shut_down();
-  add_cost(cost, *result.image);
+  result.image = controller.record();
   run_on_workstation(experiment, watch.progress, result);
+  return result;
+}
+
+}  // namespace
+
+loop::RunResult run_image(const configure::Experiment& experiment, const EmulatedBoard& board,
+                          const std::string& header, const loop::Watch& watch) {
+  const std::filesystem::path image = build_image(board, board.image_suffix, header);
+  const loop::ImageMemory memory = memory_of(measure_image(image, board));
+  loop::RunResult result = run_emulator(experiment, board, image, watch);
+  result.image->memory = memory;
+  return result;
+}
+
+loop::RunResult run_emulator(const configure::Experiment& experiment, const EmulatedBoard& board,
+                             const std::filesystem::path& image, const loop::Watch& watch) {
+  const process::OneCore core;
+  ImageProcess process(run_command(board, image), longest_silence);
+  ImageControl controller(process, board.counts_per_instruction);
+  loop::RunResult result = run_both(experiment, controller, watch);
+  shut_down(process);
+  result.image->board = board.name;
+  result.image->counts_clocks = !board.image_suffix.empty();
+  return result;
+}
+
+loop::RunResult run_board(const configure::Experiment& experiment, process::SerialPort& port,
+                          const loop::Watch& watch) {
+  SerialImage board(port, longest_silence);
+  board.await_greeting();
+  ImageControl controller(board, hal::lockstep::counts_per_clock);
+  loop::RunResult result = run_both(experiment, controller, watch);
+  result.image->board = port.device();
+  result.image->counts_clocks = true;
   return result;
 }
 

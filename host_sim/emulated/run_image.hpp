@@ -10,12 +10,11 @@
 
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/image_process.hpp"
+#include "host_sim/emulated/lockstep_image.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/run_result.hpp"
-#include "host_sim/process/child_process.hpp"
-#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/serial_port.hpp"
 
 namespace sonoglide::emulated {
 
@@ -25,6 +24,8 @@ namespace sonoglide::emulated {
 class InstructionCount {
  public:
   void add(std::uint32_t instructions);
+  /// None took anything: the board has no counter.
+  bool none() const { return periods_.empty() || periods_.rbegin()->first == 0; }
   /// Over all that were added, one at least.
   loop::InstructionRange range() const;
 
@@ -34,10 +35,10 @@ class InstructionCount {
 
 class ImageControl final : public loop::ControlPort {
  public:
-  /// @param board      outlives this
-  /// @param image      built for it, in lockstep over semihosting
-  /// @throws process::ProcessError  the emulator cannot be started
-  ImageControl(const emulated::EmulatedBoard& board, const std::filesystem::path& image);
+  /// @param image             outlives this
+  /// @param counts_per_instruction  of the board's counter, to an instruction or clock
+  ImageControl(LockstepImage& image, double counts_per_instruction)
+      : image_(image), counts_per_instruction_(counts_per_instruction) {}
 
   /// Nothing to do: the image has its targets compiled in, by carrier period.
   void set_target(double friction_ratio) override;
@@ -54,11 +55,9 @@ class ImageControl final : public loop::ControlPort {
   /// None: an image does not watch its signals.
   std::vector<numeric::SignalRecord> signals() const override;
 
-  /// Ends the image.
-  /// @return what the run showed of it: how many exchanges a second, the plant's time included and
-  ///         that of starting up not, and the cost of its steps
-  /// @throws EmulatorError  it does not leave as it should
-  loop::ImageRecord shut_down();
+  /// What the run has shown of the image: how many exchanges a second, the plant's time included and
+  /// that of starting up not, and the cost of its steps.
+  loop::ImageRecord record() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -67,10 +66,10 @@ class ImageControl final : public loop::ControlPort {
   template <class Drive>
   Drive counted(const Drive& drive);
 
-  const emulated::EmulatedBoard& board_;
-  process::OneCore core_;
-  ImageProcess image_;
+  LockstepImage& image_;
+  double counts_per_instruction_;
   Clock::time_point first_answer_;
+  Clock::time_point latest_answer_;
   std::uint64_t exchanges_ = 0;
   InstructionCount step_;
   InstructionCount answer_;
@@ -86,10 +85,23 @@ class ImageControl final : public loop::ControlPort {
 /// @throws EmulatorError          the image did not answer, or not in order
 /// @throws what loop::run() throws, besides
 loop::RunResult run_image(const configure::Experiment& experiment,
-                          const emulated::EmulatedBoard& board, const std::string& header,
+                          const EmulatedBoard& board, const std::string& header,
                           const loop::Watch& watch);
 
-/// @param result  of run_image()
+/// The same of an image that is built.
+loop::RunResult run_emulator(const configure::Experiment& experiment, const EmulatedBoard& board,
+                             const std::filesystem::path& image, const loop::Watch& watch);
+
+/// Runs a scene with the image of its controller on a board that waits in lockstep at a serial port, and once
+/// more with the controller in this process.
+///
+/// @param experiment  in closed loop, whose image it is
+/// @throws EmulatorError  the board did not greet or answer, or not in order
+/// @throws what loop::run() throws, besides
+loop::RunResult run_board(const configure::Experiment& experiment, process::SerialPort& port,
+                          const loop::Watch& watch);
+
+/// @param result  of run_image() or run_board()
 /// @throws loop::ComputationError  the image's drive commands are not the workstation's
 void require_same(const loop::RunResult& result);
 

@@ -16,11 +16,8 @@ namespace {
 
 UnitSteps in_lockstep(const EmulatedBoard& board, const std::string& header,
                       const configure::Experiment& experiment, const loop::Watch& watch) {
-  ImageControl controller(board, build_image(board, "_counted", header));
-  loop::RunResult result = loop::run(experiment.plant, *experiment.design, controller, watch);
-  result.image = controller.shut_down();
-  const std::uint64_t hash = loop::run(experiment).control->trace_hash;
-  result.image->workstation = {hash, hash == result.control->trace_hash};
+  const loop::RunResult result =
+      run_emulator(experiment, board, build_image(board, "_counted", header), watch);
   require_same(result);
   const loop::InstructionRange& step = result.image->instructions.value().step;
   return {step.median, step.max, result.control->commands, 0};

@@ -36,15 +36,21 @@ struct WorkstationRun {
   bool same;                 ///< every drive command is the image's, bit for bit
 };
 
-struct ImageRecord {
-  std::string board;
-  std::optional<WorkstationRun> workstation;       ///< absent: not compared
-  std::optional<double> exchanges_per_second;      ///< absent after fewer than two exchanges
-  std::optional<ImageInstructions> instructions;   ///< absent without a single step
+/// Of the image, before it runs.
+struct ImageMemory {
   std::uint64_t flash_bytes = 0;                   ///< code, constants, initial values
   std::uint64_t ram_bytes = 0;                     ///< static; the stack comes on top
   std::optional<std::uint64_t> stack_bytes_bound;  ///< worst case over all calls
   std::string stack_unbounded_by;                  ///< why there is no bound, if there is none
+};
+
+struct ImageRecord {
+  std::string board;           ///< or the serial device that it was spoken to over
+  bool counts_clocks = false;  ///< the costs of steps are clocks of the processor, not instructions
+  std::optional<WorkstationRun> workstation;      ///< absent: not compared
+  std::optional<double> exchanges_per_second;     ///< absent after fewer than two exchanges
+  std::optional<ImageInstructions> instructions;  ///< absent without a single step
+  std::optional<ImageMemory> memory;              ///< absent of an image that was there before
 };
 
 struct FaultEvent {

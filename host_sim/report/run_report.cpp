@@ -233,8 +233,8 @@ ordered_json image(const loop::ImageRecord& record) {
                        {"same_as_workstation", nullptr},
                        {"instructions_per_step", nullptr},
                        {"instructions_per_answer", nullptr},
-                       {"flash_bytes", record.flash_bytes},
-                       {"ram_bytes", record.ram_bytes},
+                       {"flash_bytes", nullptr},
+                       {"ram_bytes", nullptr},
                        {"stack_bytes_bound", nullptr}};
   if (record.workstation) {
     json["trace_hash_workstation"] = fmt::format("{:016x}", record.workstation->trace_hash);
@@ -244,10 +244,14 @@ ordered_json image(const loop::ImageRecord& record) {
     json["instructions_per_step"] = instructions(record.instructions->step);
     json["instructions_per_answer"] = instructions(record.instructions->answer);
   }
-  if (record.stack_bytes_bound) {
-    json["stack_bytes_bound"] = *record.stack_bytes_bound;
-  } else {
-    json["stack_unbounded_by"] = record.stack_unbounded_by;
+  if (record.memory) {
+    json["flash_bytes"] = record.memory->flash_bytes;
+    json["ram_bytes"] = record.memory->ram_bytes;
+    if (record.memory->stack_bytes_bound) {
+      json["stack_bytes_bound"] = *record.memory->stack_bytes_bound;
+    } else {
+      json["stack_unbounded_by"] = record.memory->stack_unbounded_by;
+    }
   }
   return json;
 }

@@ -87,9 +87,13 @@ std::string limit_text(const report::StepMetrics& step) {
 
 namespace {
 
-std::string stack_text(const loop::ImageRecord& record) {
+std::string stack_text(const loop::ImageMemory& record) {
   return record.stack_bytes_bound ? fmt::format("{}", *record.stack_bytes_bound)
                                   : "no bound: " + record.stack_unbounded_by;
+}
+
+const char* counted(const loop::ImageRecord& record) {
+  return record.counts_clocks ? "clocks" : "instructions (not cycles)";
 }
 
 }  // namespace
@@ -101,7 +105,9 @@ output::Table image_table(const loop::ImageRecord& record) {
   };
   if (record.instructions) {
     const loop::InstructionRange& step = record.instructions->step;
-    row("Instructions of a control step (not cycles), smallest", fmt::format("{}", step.min));
+    row(record.counts_clocks ? "Clocks of a control step, smallest"
+                             : "Instructions of a control step (not cycles), smallest",
+        fmt::format("{}", step.min));
     row("Mean", fmt::format("{:.1f}", step.mean));
     row("Largest", fmt::format("{}", step.max));
     row("Mean with the frames of lockstep",
@@ -112,9 +118,11 @@ output::Table image_table(const loop::ImageRecord& record) {
         fmt::format("{:016x}", record.workstation->trace_hash));
     row("Every drive command the same", record.workstation->same ? "yes" : "NO");
   }
-  row("Flash [B]", fmt::format("{}", record.flash_bytes));
-  row("Static RAM [B]", fmt::format("{}", record.ram_bytes));
-  row("Deepest stack [B]", stack_text(record));
+  if (record.memory) {
+    row("Flash [B]", fmt::format("{}", record.memory->flash_bytes));
+    row("Static RAM [B]", fmt::format("{}", record.memory->ram_bytes));
+    row("Deepest stack [B]", stack_text(*record.memory));
+  }
   if (record.exchanges_per_second) {
     row("Exchanges per second", fmt::format("{:.0f}", *record.exchanges_per_second));
   }
@@ -122,9 +130,13 @@ output::Table image_table(const loop::ImageRecord& record) {
 }
 
 std::string image_lines(const loop::ImageRecord& record) {
-  std::string text =
-      fmt::format("image on {}: {} B flash, {} B static RAM, deepest stack [B] {}\n", record.board,
-                  record.flash_bytes, record.ram_bytes, stack_text(record));
+  std::string text = "image on " + record.board;
+  if (record.memory) {
+    text += fmt::format(": {} B flash, {} B static RAM, deepest stack [B] {}",
+                        record.memory->flash_bytes, record.memory->ram_bytes,
+                        stack_text(*record.memory));
+  }
+  text += '\n';
   if (record.workstation) {
     text += record.workstation->same
                 ? "every drive command is the workstation's, bit for bit\n"
@@ -132,9 +144,9 @@ std::string image_lines(const loop::ImageRecord& record) {
                               record.workstation->trace_hash);
   }
   if (record.instructions && record.exchanges_per_second) {
-    text += fmt::format("a step takes {} to {} instructions (not cycles); {:.0f} exchanges/s\n",
-                        record.instructions->step.min, record.instructions->step.max,
-                        *record.exchanges_per_second);
+    text +=
+        fmt::format("a step takes {} to {} {}; {:.0f} exchanges/s\n", record.instructions->step.min,
+                    record.instructions->step.max, counted(record), *record.exchanges_per_second);
   }
   return text;
 }

@@ -24,7 +24,7 @@ std::optional<std::uint32_t> last_number(const link::Frame& answer) {
 
 }  // namespace
 
-UnitLink::UnitLink(SerialPort& port, std::chrono::milliseconds patience)
+UnitLink::UnitLink(process::SerialPort& port, std::chrono::milliseconds patience)
     : port_(port), patience_(patience), sequence_(any_number()) {
   const std::uint16_t session = any_number();
   const Result<link::Greeted> answer = ask<link::Greeted>(link::Hello{session});

@@ -8,7 +8,7 @@
 
 #include "firmware/link/frame.hpp"
 #include "firmware/link/messages.hpp"
-#include "host_sim/unit/serial_port.hpp"
+#include "host_sim/process/serial_port.hpp"
 
 namespace sonoglide::unit {
 
@@ -21,7 +21,7 @@ class UnitLink {
   /// @param port      outlives this
   /// @param patience  how long an answer may take: longer in an emulator on a busy machine
   /// @throws process::ProcessError  the device answers nothing, or nothing that a unit says
-  explicit UnitLink(SerialPort& port, std::chrono::milliseconds patience = usual_patience);
+  explicit UnitLink(process::SerialPort& port, std::chrono::milliseconds patience = usual_patience);
 
   template <class Answer>
   using Result = std::variant<Answer, link::Refusal>;
@@ -50,7 +50,7 @@ class UnitLink {
   bool receive(std::uint16_t sequence, std::chrono::milliseconds patience, link::Frame& answer);
   [[noreturn]] void fail(const std::string& reason) const;
 
-  SerialPort& port_;
+  process::SerialPort& port_;
   std::chrono::milliseconds patience_;
   link::FrameDecoder decoder_;
   std::uint16_t sequence_;

@@ -1,8 +1,10 @@
 // The same controller source on the host and as an image on an emulated board: the same commands.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <random>
@@ -18,14 +20,19 @@
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image_process.hpp"
+#include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant/make_plant_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
+#include "host_sim/process/child_process.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/serial_port.hpp"
 #include "tested_boards.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
+#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
 
 namespace sonoglide::emulated::lockstep_test {
 namespace {
@@ -304,7 +311,32 @@ TEST_P(SerialImage, LeavesWhenAFrameIsOutOfTurn) {
   EXPECT_EQ(board_.shut_down(), link_broken);
 }
 
+/// Over a serial device whose other end is a board.
+class BoardAtPort : public testing::TestWithParam<std::string> {};
+
+TEST_P(BoardAtPort, RunsASceneAsPilDoesAtAPort) {
+  const configure::Experiment experiment =
+      experiment::read_file(SONOGLIDE_CONTROLLERS "/target_step/scene.toml");
+  const unit::PseudoTerminal device;
+  process::Pipe to_board = process::make_pipe();
+  process::Pipe from_board = process::make_pipe();
+  process::SerialPort port(device.device());
+  const process::ChildProcess emulator(
+      emulated::serial_emulator_command(*emulated::find_board(GetParam()),
+                                        image(GetParam(), "target_step_serial")),
+      {to_board.read_end.number(), from_board.write_end.number(), STDERR_FILENO}, SIGKILL);
+  from_board.write_end.close();
+  const unit::Relay relay(device, from_board.read_end.number(), to_board.write_end.number());
+  const loop::RunResult result = run_board(experiment, port, {});
+  EXPECT_TRUE(result.image->workstation->same);
+  EXPECT_EQ(result.image->board, device.device());
+  EXPECT_FALSE(result.image->memory);
+}
+
 INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(emulated::tested_boards()),
+                         [](const auto& parameter) { return test_name_of(parameter.param); });
+
+INSTANTIATE_TEST_SUITE_P(Boards, BoardAtPort, testing::ValuesIn(emulated::tested_boards()),
                          [](const auto& parameter) { return test_name_of(parameter.param); });
 
 TEST(ImageTest, LeavesOnAFaultOfACortexM) {

@@ -20,8 +20,8 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/console.hpp"
-#include "host_sim/unit/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
 #include "monitor.hpp"
 #include "tested_boards.hpp"
@@ -148,7 +148,7 @@ class Terminal {
   process::Pipe to_board_;
   process::Pipe from_board_;
   unit::PseudoTerminal device_;
-  unit::SerialPort port_;
+  process::SerialPort port_;
   process::ChildProcess emulator_;
   unit::Relay relay_;
   std::optional<unit::UnitLink> link_;

@@ -72,18 +72,19 @@ function(sonoglide_board name)
     USES sonoglide_board sonoglide_processor)
 endfunction()
 
-# sonoglide_carrier_board(<name> FOLDER <f> [CHIP <chip>] HARDWARE <class>): a board whose carrier interrupts. Its
+# sonoglide_carrier_board(<name> FOLDER <f> [CHIP <chip>] HARDWARE <class>
+#   SERIAL_BOARD <class>): a board whose carrier interrupts. Its
 # class is in <f>/board.hpp, its memory map in <f>/memory.ld; of boards that differ in their chip alone, what is
 # the chip's own is in <f>/<chip>. Each controller gives <name of its folder>_unit.elf, with
-# a link to its host, and <name>_scene.elf, with the targets of its scene. <f>/write_uf2 writes a .uf2 beside
-# each, where there is such a program, and Python.
+# a link to its host, and <name>_scene.elf, with the targets of its scene, and <name>_serial.elf, in lockstep with a
+# host over a serial line (SERIAL_BOARD). <f>/write_uf2 writes a .uf2 beside each, where there is such a program, and Python.
 function(sonoglide_carrier_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "FOLDER;CHIP;HARDWARE" "" ${ARGN})
-  sonoglide_room(sonoglide_board ${BOARD_FOLDER} FOLDERS ${BOARD_CHIP} USES sonoglide_hal sonoglide_loaded)
+  cmake_parse_arguments(BOARD "" "FOLDER;CHIP;HARDWARE;SERIAL_BOARD" "" ${ARGN})
+  sonoglide_room(sonoglide_board ${BOARD_FOLDER} FOLDERS ${BOARD_CHIP} USES sonoglide_lockstep_board sonoglide_loaded)
   set(memory ${BOARD_FOLDER}/memory.ld)
   if(BOARD_CHIP)
     set(memory ${BOARD_FOLDER}/${BOARD_CHIP}/memory.ld)
@@ -91,9 +92,15 @@ function(sonoglide_carrier_board name)
       "SONOGLIDE_CHIP_HEADER=\"${BOARD_FOLDER}/${BOARD_CHIP}/chip.hpp\"")
   endif()
   find_program(SONOGLIDE_INTERPRETER python3)
+  set(class_of_serial ${BOARD_SERIAL_BOARD})
+  set(main_of_serial main)
   foreach(image unit scene)
-    sonoglide_images(_${image} SOURCE firmware/image/carrier_${image}.cpp
-      MEMORY ${memory} CLASS ${BOARD_HARDWARE} HEADER ${BOARD_FOLDER}/board.hpp
+    set(class_of_${image} ${BOARD_HARDWARE})
+    set(main_of_${image} carrier_${image})
+  endforeach()
+  foreach(image unit scene serial)
+    sonoglide_images(_${image} SOURCE firmware/image/${main_of_${image}}.cpp
+      MEMORY ${memory} CLASS ${class_of_${image}} HEADER ${BOARD_FOLDER}/board.hpp
       USES sonoglide_carrier_image sonoglide_board)
     foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
       get_filename_component(controller "${folder}" NAME)
@@ -185,9 +192,10 @@ if(CMAKE_CROSSCOMPILING)
   endif()
 
   sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
-  sonoglide_carrier_board(pico FOLDER hal/pico CHIP rp2040 HARDWARE pico::Hardware)
-  sonoglide_carrier_board(pico2 FOLDER hal/pico CHIP rp2350 HARDWARE pico::Hardware)
-  sonoglide_carrier_board(nucleo-g474re FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware)
+  sonoglide_carrier_board(pico FOLDER hal/pico CHIP rp2040 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard)
+  sonoglide_carrier_board(pico2 FOLDER hal/pico CHIP rp2350 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard)
+  sonoglide_carrier_board(nucleo-g474re FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware
+    SERIAL_BOARD nucleo_g474re::SerialBoard)
   sonoglide_emulated_board(microbit FOLDER hal/microbit
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
   foreach(board mps2-an385 mps2-an386 mps2-an500)

@@ -6,9 +6,17 @@
 
 #include "hal/board.hpp"
 #include "hal/lockstep/frame.hpp"
+#include "hal/start/counter.hpp"
 #include "hal/start/image_end.hpp"
 
 namespace sonoglide::hal::lockstep {
+
+/// The processor's counter; it runs from its construction on.
+class ProcessorCounter {
+ public:
+  ProcessorCounter() { start_counter(); }
+  std::uint32_t read() const { return read_counter(); }
+};
 
 struct NoCounter {
   std::uint32_t read() const { return 0; }

@@ -8,7 +8,7 @@
 
 namespace sonoglide::hal::lockstep {
 
-/// The line carries frames back to back, after one greeting from the board. It has no end.
+/// The line carries frames back to back, after greetings from the board. It has no end.
 ///
 /// @tparam ByteLink  see hal/board.hpp; once constructed, it hears.
 template <class ByteLink>
@@ -18,8 +18,7 @@ class SerialLink {
 
   std::size_t read(std::uint8_t* bytes, std::size_t size) {
     for (std::size_t i = 0; i < size; ++i) {
-      while (!line_.receive(bytes[i])) {
-      }
+      wait_for(bytes[i]);
     }
     return size;
   }
@@ -33,7 +32,21 @@ class SerialLink {
   }
 
  private:
+  static constexpr std::uint32_t polls_between_greetings = 1U << 20;
+
+  void wait_for(std::uint8_t& byte) {
+    std::uint32_t polls = 0;
+    while (!line_.receive(byte)) {
+      ++polls;
+      if (!heard_ && polls % polls_between_greetings == 0) {
+        line_.send(greeting);
+      }
+    }
+    heard_ = true;
+  }
+
   ByteLink line_{};
+  bool heard_ = false;
 };
 
 }  // namespace sonoglide::hal::lockstep

@@ -42,7 +42,7 @@ std::string images_csv(const ArithmeticComparison& comparison) {
     csv += fmt::format("{},{},{},{},{},{},{},{}\n", row.board->name, row.board->core,
                        scene::name_of(scene::arithmetics, row.arithmetic), fields(row.precision),
                        control::name(row.fault), fields(row.image.instructions),
-                       row.image.flash_bytes, row.image.ram_bytes);
+                       row.image.memory->flash_bytes, row.image.memory->ram_bytes);
   }
   return csv;
 }
@@ -80,7 +80,7 @@ std::string line(const ImageRow& row) {
                      scene::name_of(scene::arithmetics, row.arithmetic),
                      number(row.precision.rms_difference), number(row.precision.largest_difference),
                      number(row.precision.steady_error), number(row.precision.ripple),
-                     instructions(row.image.instructions), row.image.flash_bytes, fault);
+                     instructions(row.image.instructions), row.image.memory->flash_bytes, fault);
 }
 
 std::string text(const ArithmeticComparison& comparison) {
@@ -108,8 +108,9 @@ output::Table image_table(const ArithmeticComparison& comparison) {
          number(row.precision.steady_error), number(row.precision.ripple),
          count ? fmt::format("{}", count->step.min) : "-",
          count ? fmt::format("{:.0f}", count->step.mean) : "-",
-         count ? fmt::format("{}", count->step.max) : "-", fmt::format("{}", row.image.flash_bytes),
-         fmt::format("{}", row.image.ram_bytes), std::string(control::name(row.fault))});
+         count ? fmt::format("{}", count->step.max) : "-",
+         fmt::format("{}", row.image.memory->flash_bytes),
+         fmt::format("{}", row.image.memory->ram_bytes), std::string(control::name(row.fault))});
   }
   return table;
 }

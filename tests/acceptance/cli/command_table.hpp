@@ -37,7 +37,7 @@ inline const std::vector<Command> command_table = {
     {"pil",
      "closed.toml",
      "--board mps2-an386",
-     {"--set", "--board", "--out", "--quiet"},
+     {"--set", "--board", "--port", "--out", "--quiet"},
      "out/closed_mps2-an386",
      {},
      {"summary.json"},

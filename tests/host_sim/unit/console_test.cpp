@@ -20,7 +20,7 @@
 
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
-#include "host_sim/unit/serial_port.hpp"
+#include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 #include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
@@ -97,7 +97,7 @@ class ConsoleTest : public testing::Test {
 
   PseudoTerminal terminal_;
   ServedUnit served_{terminal_};
-  SerialPort port_{terminal_.device()};
+  process::SerialPort port_{terminal_.device()};
   UnitLink link_{port_};
   Console console_{link_};
 };
@@ -211,13 +211,13 @@ TEST(UnitLinkTest, IsPatientWithASlowUnitThatAnotherHostHasLeft) {
                ? link::frame_of(link::Greeted{hello.session, 0}, number)
                : link::frame_of(link::Refusal{0x01, out_of_turn, last, last}, number);
   });
-  SerialPort port(terminal.device());
+  process::SerialPort port(terminal.device());
   EXPECT_NO_THROW(UnitLink link(port));
 }
 
 std::string failure_at(const std::string& device) {
   try {
-    SerialPort port(device);
+    process::SerialPort port(device);
     UnitLink link(port);
   } catch (const process::ProcessError& error) {
     return error.what();

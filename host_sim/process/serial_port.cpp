@@ -1,4 +1,4 @@
-#include "host_sim/unit/serial_port.hpp"
+#include "host_sim/process/serial_port.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -10,7 +10,7 @@
 
 #include "host_sim/process/printable.hpp"
 
-namespace sonoglide::unit {
+namespace sonoglide::process {
 
 using std::chrono_literals::operator""ms;
 
@@ -53,7 +53,7 @@ void SerialPort::send(const std::uint8_t* bytes, std::size_t size) {
 
 std::size_t SerialPort::receive(std::uint8_t* bytes, std::size_t size,
                                 std::chrono::milliseconds limit) {
-  if (!process::wait_for_input(line_.number(), limit)) {
+  if (!wait_for_input(line_.number(), limit)) {
     return 0;
   }
   const ssize_t count = read(line_.number(), bytes, size);
@@ -67,7 +67,7 @@ std::size_t SerialPort::receive(std::uint8_t* bytes, std::size_t size,
 }
 
 void SerialPort::fail(const std::string& reason) const {
-  throw process::ProcessError(process::printable(device_) + ": " + reason);
+  throw ProcessError(printable(device_) + ": " + reason);
 }
 
-}  // namespace sonoglide::unit
+}  // namespace sonoglide::process

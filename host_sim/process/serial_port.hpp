@@ -1,4 +1,4 @@
-/// The serial line to a unit.
+/// A serial line.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 #include "host_sim/process/pipe.hpp"
 
-namespace sonoglide::unit {
+namespace sonoglide::process {
 
 /// A serial device or a pseudo-terminal: 8 data bits, no parity, one stop bit, no flow control, bytes
 /// as they are. What was received before it was opened is dropped.
@@ -17,24 +17,24 @@ class SerialPort {
   static constexpr unsigned baud = 115200;
 
   /// @param device  its path
-  /// @throws process::ProcessError  it cannot be opened, or is no serial line
+  /// @throws ProcessError  it cannot be opened, or is no serial line
   explicit SerialPort(const std::string& device);
 
   const std::string& device() const { return device_; }
 
-  /// @throws process::ProcessError  the device is gone, or takes nothing for a second
+  /// @throws ProcessError  the device is gone, or takes nothing for a second
   void send(const std::uint8_t* bytes, std::size_t size);
 
   /// @param limit  waits this long at most
   /// @return the bytes received, at most `size`; 0: none came
-  /// @throws process::ProcessError  the device is gone
+  /// @throws ProcessError  the device is gone
   std::size_t receive(std::uint8_t* bytes, std::size_t size, std::chrono::milliseconds limit);
 
  private:
   [[noreturn]] void fail(const std::string& reason) const;
 
   std::string device_;
-  process::Descriptor line_;
+  Descriptor line_;
 };
 
-}  // namespace sonoglide::unit
+}  // namespace sonoglide::process
