@@ -80,8 +80,10 @@ function(sonoglide_check_headers target folder headers)
     if(NOT SONOGLIDE_CHECK)
       set_target_properties(${target}_headers PROPERTIES EXCLUDE_FROM_ALL ON)
     endif()
-    target_link_libraries(${target}_headers PRIVATE
-      ${target} sonoglide_warnings sonoglide_freestanding)
+    target_link_libraries(${target}_headers PRIVATE ${target} sonoglide_warnings)
+    if(NOT folder MATCHES "^tests/")
+      target_link_libraries(${target}_headers PRIVATE sonoglide_freestanding)
+    endif()
   endif()
 endfunction()
 
