@@ -26,7 +26,8 @@ namespace {
 struct ImageOptions {
   SceneOptions scene;
   std::string board;
-  std::string out;  ///< empty: out/<scene name>_<board>/unit and the usual ending
+  std::string out;  ///< empty: out/<scene name>_<board>/unit or lockstep, and the usual ending
+  bool lockstep = false;
   bool quiet = false;
 };
 
@@ -51,9 +52,10 @@ const emulated::UnitFile& file_of(const ImageOptions& options, const emulated::U
 
 std::filesystem::path path_of(const ImageOptions& options, const std::string& scene_name,
                               const emulated::UnitFile& file) {
-  return options.out.empty() ? output_folder("", scene_name, "_" + options.board) /
-                                   fmt::format("unit{}", file.ending)
-                             : std::filesystem::path(options.out);
+  return options.out.empty()
+             ? output_folder("", scene_name, "_" + options.board) /
+                   fmt::format("{}{}", options.lockstep ? "lockstep" : "unit", file.ending)
+             : std::filesystem::path(options.out);
 }
 
 std::string stack_text(const emulated::StackBound& stack) {
@@ -94,22 +96,35 @@ std::string step_lines(const emulated::EmulatedBoard* emulator, const std::files
 void print_unit(const emulated::UnitBoard& board, const emulated::UnitFile& file,
                 const std::filesystem::path& path, const emulated::ImageCost& cost,
                 const std::string& steps) {
-  fmt::print("unit: {}, for {} ({})\n", process::printable(path.string()), board.name, board.core);
+  fmt::print("{}: {}, for {} ({})\n", steps.empty() ? "image in lockstep" : "unit",
+             process::printable(path.string()), board.name, board.core);
   fmt::print("size: {} B flash, {} B static RAM, deepest stack {}\n", cost.size.flash_bytes,
              cost.size.ram_bytes, stack_text(cost.stack));
-  fmt::print("step: {}\n", steps);
+  if (!steps.empty()) {
+    fmt::print("step: {}\n", steps);
+  }
   fmt::print("{} {}{}{}\n", board.is_emulated ? "run: " : "load:", file.before,
              long_work::shell_word(process::printable(path.string())), file.after);
 }
 
+emulated::UnitBoard board_of(const ImageOptions& options) {
+  emulated::UnitBoard board = *emulated::find_unit_board(options.board);
+  if (options.lockstep) {
+    board.image_suffix = "_serial";
+  }
+  return board;
+}
+
 /// Nothing is written unless all of it can be.
 void image(const ImageOptions& options) {
-  const emulated::UnitBoard& board = *emulated::find_unit_board(options.board);
+  const emulated::UnitBoard board = board_of(options);
   const emulated::UnitFile& file = file_of(options, board);
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();
   const std::string header = input.with_places([&] {
-    emulated::require_unit(experiment.plant, board);
+    if (!options.lockstep) {
+      emulated::require_unit(experiment.plant, board);
+    }
     return emulated::controller_header(experiment);
   });
   const std::filesystem::path path = path_of(options, experiment.plant.name, file);
@@ -120,7 +135,9 @@ void image(const ImageOptions& options) {
       input.with_places([&] { return emulated::build_unit(board, header); });
   const emulated::ImageCost cost = emulated::measure_image(built, board);
   const std::string steps =
-      options.quiet ? "" : step_lines(emulated::find_board(board.name), built, header, experiment);
+      options.quiet || options.lockstep
+          ? ""
+          : step_lines(emulated::find_board(board.name), built, header, experiment);
   folder.write(name, emulated::unit_file(board, built, file.ending));
   folder.commit();
   if (!options.quiet) {
@@ -143,11 +160,13 @@ void add_image_command(CLI::App& program) {
   command
       ->add_option(
           "--out", options->out,
-          "The image [out/<scene name>_<board>/unit.uf2, or .elf where a board takes none]")
+          "The image [out/<scene name>_<board>/unit.uf2, lockstep.uf2, or .elf where a board takes none]")
       ->type_name("FILE.elf|.uf2|.bin")
       ->check([](const std::string& file) {
         return file.empty() ? std::string("is empty; allowed: a file") : std::string();
       });
+  command->add_flag("--lockstep", options->lockstep,
+                    "In place of the unit the image that pil --port runs");
   command->add_flag("--quiet", options->quiet, "No notes, and no word on the image");
   command->callback([options] { image(*options); });
 }
