@@ -16,6 +16,7 @@ void add_run(pybind11::module_& module);
 void add_friction_ratio(pybind11::module_& module);
 void add_loop(pybind11::module_& module);
 void add_unit(pybind11::module_& module);
+void add_port(pybind11::module_& module);
 void add_rollout(pybind11::module_& module);
 void add_sweep(pybind11::module_& module);
 void add_studies(pybind11::module_& module);

@@ -17,10 +17,6 @@ namespace sonoglide::unit {
 namespace {
 
 using app::parameter_labels;
-using std::chrono_literals::operator""s;
-
-/// A save may take 10 s in the unit.
-constexpr std::chrono::milliseconds longest_save = 12s;
 
 constexpr const char* help_text =
     "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
@@ -37,14 +33,6 @@ std::string millionths_of_code(std::int32_t code) {
 
 bool read_value(const std::string& text, int places, std::uint32_t& value) {
   return encoding::read_decimal(text.data(), text.size(), places, value);
-}
-
-std::size_t parameter_named(const std::string& name) {
-  std::size_t i = 0;
-  while (i < app::parameter_count && name != parameter_labels[i].name) {
-    ++i;
-  }
-  return i;
 }
 
 std::string text_of(const link::ParameterValue& value) {
@@ -76,8 +64,7 @@ std::string text_of(const link::Telemetry& told) {
 }
 
 std::string text_of(const link::Identity& told) {
-  const std::string board(told.board.begin(),
-                          std::find(told.board.begin(), told.board.end(), '\0'));
+  const std::string board = board_of(told);
   return fmt::format("{}firmware {}.{}.{}, design {:#010x}, serial number {}",
                      board.empty() ? "" : process::printable(board) + ", ", told.major_number,
                      told.minor_number, told.patch_number, told.design,
@@ -85,6 +72,51 @@ std::string text_of(const link::Identity& told) {
 }
 
 }  // namespace
+
+std::size_t parameter_named(const std::string& name) {
+  std::size_t i = 0;
+  while (i < app::parameter_count && name != parameter_labels[i].name) {
+    ++i;
+  }
+  return i;
+}
+
+std::string board_of(const link::Identity& told) {
+  return {told.board.begin(), std::find(told.board.begin(), told.board.end(), '\0')};
+}
+
+std::string words_of(const link::Refusal& refusal, std::size_t parameter) {
+  switch (static_cast<link::Reason>(refusal.reason)) {
+    case link::Reason::out_of_range: {
+      const app::ParameterLabel& label = parameter_labels[parameter];
+      return fmt::format("{}: allowed is {} to {}{}", label.name,
+                         decimal(refusal.lowest, label.decimal_places),
+                         decimal(refusal.highest, label.decimal_places), label.unit);
+    }
+    case link::Reason::unknown_parameter: {
+      std::vector<std::string> names;
+      names.reserve(std::size(parameter_labels));
+      for (const app::ParameterLabel& label : parameter_labels) {
+        names.emplace_back(label.name);
+      }
+      return fmt::format("unknown parameter; there are: {}", fmt::join(names, ", "));
+    }
+    case link::Reason::drive_not_stopped:
+      return "stop the drive first";
+    case link::Reason::not_saved:
+      return "not saved: the flash of the unit took nothing; the old value stands";
+    case link::Reason::parameters_not_confirmed:
+      return "see params, then confirm them or set one";
+    case link::Reason::overtaken_by_fault:
+      return "not done: a fault came first";
+    case link::Reason::unknown_request:
+    case link::Reason::wrong_length:
+    case link::Reason::no_such_fault:
+    case link::Reason::out_of_turn:
+      break;
+  }
+  return fmt::format("refused by the unit, reason {}", refusal.reason);
+}
 
 std::vector<std::string> Console::carry_out(const std::string& line) {
   std::istringstream stream(line);
@@ -262,36 +294,7 @@ Console::Lines Console::refuse(const std::string& reason) {
 }
 
 Console::Lines Console::refuse(const link::Refusal& refusal, std::size_t parameter) {
-  switch (static_cast<link::Reason>(refusal.reason)) {
-    case link::Reason::out_of_range: {
-      const app::ParameterLabel& label = parameter_labels[parameter];
-      return refuse(fmt::format("{}: allowed is {} to {}{}", label.name,
-                                decimal(refusal.lowest, label.decimal_places),
-                                decimal(refusal.highest, label.decimal_places), label.unit));
-    }
-    case link::Reason::unknown_parameter: {
-      std::vector<std::string> names;
-      names.reserve(std::size(parameter_labels));
-      for (const app::ParameterLabel& label : parameter_labels) {
-        names.emplace_back(label.name);
-      }
-      return refuse(fmt::format("unknown parameter; there are: {}", fmt::join(names, ", ")));
-    }
-    case link::Reason::drive_not_stopped:
-      return refuse("stop the drive first");
-    case link::Reason::not_saved:
-      return refuse("not saved: the flash of the unit took nothing; the old value stands");
-    case link::Reason::parameters_not_confirmed:
-      return refuse("see params, then confirm them or set one");
-    case link::Reason::overtaken_by_fault:
-      return refuse("not done: a fault came first");
-    case link::Reason::unknown_request:
-    case link::Reason::wrong_length:
-    case link::Reason::no_such_fault:
-    case link::Reason::out_of_turn:
-      break;
-  }
-  return refuse(fmt::format("refused by the unit, reason {}", refusal.reason));
+  return refuse(words_of(refusal, parameter));
 }
 
 }  // namespace sonoglide::unit

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_friction_ratio(module);
   python::add_loop(module);
   python::add_unit(module);
+  python::add_port(module);
   python::add_rollout(module);
   python::add_sweep(module);
   python::add_studies(module);

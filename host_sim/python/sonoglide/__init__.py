@@ -7,6 +7,7 @@ help(sonoglide.run).
 from ._control import Loop, Unit
 from ._core import ComputationError, SceneError, limits, settlings, states
 from ._core import version as __version__
+from ._port import Port
 from ._run import Columns, Run, friction_ratio, rollout, run
 from ._scene import Scene, notebooks, scenes
 from ._studies import (
@@ -25,6 +26,7 @@ __all__ = [
     "Columns",
     "ComputationError",
     "Loop",
+    "Port",
     "Run",
     "Scene",
     "SceneError",

@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "firmware/app/parameter_labels.hpp"
+#include "firmware/app/unit_names.hpp"
+#include "firmware/link/messages.hpp"
+#include "host_sim/process/serial_port.hpp"
+#include "host_sim/python/bindings.hpp"
+#include "host_sim/unit/console.hpp"
+#include "host_sim/unit/unit_link.hpp"
+
+namespace sonoglide::python {
+namespace {
+
+namespace py = pybind11;
+using app::parameter_labels;
+
+double number_of(std::uint32_t value, int places) {
+  return value / std::pow(10.0, places);
+}
+
+/// In units of the last decimal place. What does not fit is beyond every range, which the unit names.
+std::uint32_t count_of(double value, int places) {
+  const double scaled = std::round(value * std::pow(10.0, places));
+  return scaled >= 0.0 && scaled < UINT32_MAX ? static_cast<std::uint32_t>(scaled) : UINT32_MAX;
+}
+
+/// A unit at a serial device. Several threads take turns.
+class Port {
+ public:
+  explicit Port(const std::string& device, double patience_s)
+      : patience_(milliseconds(patience_s)), port_(device), link_(port_, patience_) {}
+
+  py::dict identity() {
+    const auto told = ask<link::Identity>(link::ReadIdentity{});
+    py::dict identity;
+    identity["version"] =
+        fmt::format("{}.{}.{}", told.major_number, told.minor_number, told.patch_number);
+    identity["design"] = told.design;
+    identity["board"] = unit::board_of(told);
+    identity["serial_number"] = told.serial_number;
+    return identity;
+  }
+
+  py::dict status() {
+    const auto told = ask<link::Telemetry>(link::ReadTelemetry{});
+    py::dict status;
+    status["period"] = told.period;
+    status["friction_force_code"] = told.friction_force;
+    status["sliding_velocity_code"] = told.sliding_velocity;
+    status["amplitude_code"] = told.amplitude;
+    status["target"] = number_of(told.target, places_of(app::Parameter::target));
+    status["state"] = control::name(static_cast<control::State>(told.state));
+    status["limit"] = control::name(static_cast<control::Limit>(told.limit));
+    status["fault"] = app::fault_name(told.fault);
+    status["settling"] = control::name(static_cast<control::Settling>(told.settling));
+    status["parameters"] = app::name(static_cast<store::Origin>(told.parameters));
+    status["nominal_over_true_friction"] =
+        told.mismatch == 0 ? py::object(py::none()) : py::float_(number_of(told.mismatch, 3));
+    status["lost_frames"] = told.lost_frames;
+    return status;
+  }
+
+  void set_target(double target) {
+    constexpr app::Parameter parameter = app::Parameter::target;
+    ask<link::TargetSet>(link::SetTarget{count_of(target, places_of(parameter))},
+                         static_cast<std::size_t>(parameter));
+  }
+
+  void stop() { ask<link::Stopped>(link::Stop{}); }
+  void restart() { ask<link::Restarted>(link::Restart{}); }
+  void confirm() { ask<link::Confirmed>(link::Confirm{}, 0, unit::longest_save); }
+
+  py::list faults() {
+    py::list faults;
+    for (std::uint8_t age = 0; age < UINT8_MAX; ++age) {
+      const auto result = answer<link::LoggedFault>(link::ReadFault{age});
+      const auto* fault = std::get_if<link::LoggedFault>(&result);
+      if (fault == nullptr) {
+        break;
+      }
+      py::dict entry;
+      entry["period"] = fault->period;
+      entry["fault"] = app::fault_name(fault->fault);
+      faults.append(entry);
+    }
+    return faults;
+  }
+
+  py::dict parameter(const std::string& name) {
+    const std::size_t number = unit::parameter_named(name);
+    const auto told =
+        ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(number)}, number);
+    py::dict parameter;
+    parameter["value"] = number_of(told.value, told.decimal_places);
+    parameter["lowest"] = number_of(told.lowest, told.decimal_places);
+    parameter["highest"] = number_of(told.highest, told.decimal_places);
+    parameter["compiled_in"] = number_of(told.preset, told.decimal_places);
+    return parameter;
+  }
+
+  void set_parameter(const std::string& name, double value) {
+    const std::size_t number = unit::parameter_named(name);
+    link::WriteParameter request{};
+    request.parameter = static_cast<std::uint8_t>(number);
+    request.value = number < app::parameter_count
+                        ? count_of(value, parameter_labels[number].decimal_places)
+                        : UINT32_MAX;
+    ask<link::ParameterWritten>(request, number, unit::longest_save);
+  }
+
+ private:
+  static std::chrono::milliseconds milliseconds(double time_s) {
+    constexpr double longest_s = 3600.0;
+    if (!(time_s > 0.0 && time_s <= longest_s)) {
+      throw py::value_error(
+          fmt::format("patience_s is {}; allowed: above 0, at most {}", time_s, longest_s));
+    }
+    return std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(1e3 * time_s)));
+  }
+
+  static constexpr int places_of(app::Parameter parameter) {
+    return parameter_labels[static_cast<std::size_t>(parameter)].decimal_places;
+  }
+
+  template <class Answer, class Request>
+  unit::UnitLink::Result<Answer> answer(const Request& request,
+                                        std::chrono::milliseconds work = {}) {
+    const py::gil_scoped_release released;
+    const std::lock_guard turn(turn_);
+    return link_.ask<Answer>(request, work);
+  }
+
+  /// @param parameter  of the value that was asked for
+  /// @throws std::invalid_argument  the unit has no such value
+  /// @throws std::runtime_error     the unit refuses it now
+  template <class Answer, class Request>
+  Answer ask(const Request& request, std::size_t parameter = 0,
+             std::chrono::milliseconds work = {}) {
+    const auto result = answer<Answer>(request, work);
+    if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+      const std::string words = unit::words_of(*refusal, parameter);
+      const auto reason = static_cast<link::Reason>(refusal->reason);
+      if (reason == link::Reason::out_of_range || reason == link::Reason::unknown_parameter) {
+        throw std::invalid_argument(words);
+      }
+      throw std::runtime_error(words);
+    }
+    return std::get<Answer>(result);
+  }
+
+  std::chrono::milliseconds patience_;
+  std::mutex turn_;
+  process::SerialPort port_;
+  unit::UnitLink link_;
+};
+
+py::list parameter_names() {
+  py::list names;
+  for (const app::ParameterLabel& label : parameter_labels) {
+    names.append(label.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void add_port(py::module_& module) {
+  module.attr("parameter_names") = py::tuple(parameter_names());
+  py::class_<Port>(module, "Port")
+      .def(py::init<std::string, double>(), py::arg("device"), py::arg("patience_s"))
+      .def(
+          "identity", &Port::identity,
+          "identity(self)\n--\n\nVersion of the firmware, number of the design, name of the board and serial\n"
+          "number; 0 where none was given.")
+      .def(
+          "status", &Port::status,
+          "status(self)\n--\n\nWhat the unit measures and does in the present carrier period. Codes have full scale\n"
+          "at 2**31; the target is a friction ratio, or a force as part of the full scale of its sensor.")
+      .def(
+          "set_target", &Port::set_target, py::arg("target"),
+          "set_target(self, target)\n--\n\nUntil reset: a friction ratio, or a force as part of the full scale of its\n"
+          "sensor.")
+      .def("stop", &Port::stop, "stop(self)\n--\n\nDrive to zero at once.")
+      .def("restart", &Port::restart,
+           "restart(self)\n--\n\nStarts the drive, from a stop, from a fault or from running.")
+      .def(
+          "confirm", &Port::confirm,
+          "confirm(self)\n--\n\nAccepts the parameters in force, and saves them. Needs a stop first.")
+      .def(
+          "faults", &Port::faults,
+          "faults(self)\n--\n\nThe last faults and the carrier periods in which they were found, the latest first.")
+      .def("parameter", &Port::parameter, py::arg("name"),
+           "parameter(self, name)\n--\n\nIts value, its range and what was compiled in.")
+      .def("set_parameter", &Port::set_parameter, py::arg("name"), py::arg("value"),
+           "set_parameter(self, name, value)\n--\n\nSaves a parameter. Needs a stop first.");
+}
+
+}  // namespace sonoglide::python

@@ -1,0 +1,74 @@
+import os
+import re
+import subprocess
+
+import pytest
+
+import sonoglide
+
+BOARD = "mps2-an386"
+
+
+@pytest.fixture(scope="module")
+def image(tmp_path_factory):
+    file = tmp_path_factory.mktemp("unit") / "unit.elf"
+    scene = os.path.join(os.environ["SONOGLIDE_SCENES"], "target_step.toml")
+    subprocess.run(
+        [os.environ["SONOGLIDE_PROGRAM"], "image", scene, "--board", BOARD, "--out", file, "--quiet"], check=True
+    )
+    return file
+
+
+@pytest.fixture
+def unit(image):
+    """An emulated board whose serial line is a device."""
+    command = ["qemu-system-arm", "-machine", BOARD, "-nic", "user,restrict=on", "-nodefaults", "-display", "none"]
+    command += ["-icount", "shift=5", "-serial", "pty", "-kernel", image]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as emulator:
+        try:
+            device = re.search(r"/dev/pts/\d+", emulator.stdout.readline()).group()
+            yield sonoglide.Port(device, patience_s=20.0)
+        finally:
+            emulator.kill()
+
+
+def test_a_unit_is_started_set_and_stopped(unit):
+    assert unit.identity()["board"] == BOARD
+    assert unit.identity()["version"] == sonoglide.__version__
+    assert unit.status()["state"] == "off"
+    unit.restart()
+    assert unit.status()["state"] != "off"
+    unit.set_target(0.5)
+    status = unit.status()
+    assert status["target"] == 0.5
+    assert status["fault"] == "none"
+    assert unit.status()["period"] > status["period"]
+    unit.stop()
+    assert unit.status()["state"] == "off"
+    assert unit.status()["amplitude_code"] == 0
+    assert unit.faults() == []
+
+
+def test_a_refusal_has_its_reason(unit):
+    with pytest.raises(ValueError, match="target: allowed is .* to 1"):
+        unit.set_target(1.5)
+    with pytest.raises(ValueError, match="target: allowed is"):
+        unit.set_target(float("nan"))
+    with pytest.raises(ValueError, match="unknown parameter; there are: target, drive_limit"):
+        unit.parameter("gain")
+    parameters = unit.parameters()
+    assert parameters["drive_limit"]["lowest"] <= parameters["drive_limit"]["value"] <= 1.0
+    unit.restart()
+    with pytest.raises(RuntimeError, match="stop the drive first"):
+        unit.set_parameter("drive_limit", 0.8)
+
+
+@pytest.mark.parametrize("device", ["/dev/null", "no_such_device"])
+def test_what_is_no_unit_is_named(device):
+    with pytest.raises(OSError, match=device):
+        sonoglide.Port(device)
+
+
+def test_patience_has_a_range():
+    with pytest.raises(ValueError, match="patience_s is 0; allowed: above 0"):
+        sonoglide.Port("/dev/null", 0.0)
