@@ -40,9 +40,10 @@ class LinkService {
  public:
   LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
 
+  // Cold, as all that is not control: for fewer bytes, not for speed.
   /// Receives what has come. Then it carries out one request, or takes one step of a save, and sends what
   /// there is room for.
-  void serve() {
+  [[gnu::cold, gnu::noinline]] void serve() {
     for (std::size_t left = MostBytes; left > 0 && receive(); --left) {
     }
     proceed();
@@ -98,7 +99,7 @@ class LinkService {
   }
 
   // Out of line, so that it stands once: most services find no byte.
-  [[gnu::noinline]] void take(std::uint8_t byte) {
+  [[gnu::cold, gnu::noinline]] void take(std::uint8_t byte) {
     if (!decoder_.begun()) {
       faults_ = faults();
     }
@@ -335,8 +336,8 @@ class LinkService {
     refuse(kind, link::Reason::unknown_parameter, 0, parameter_count - 1);
   }
 
-  [[gnu::noinline]] void refuse(std::uint8_t kind, link::Reason reason, std::uint32_t lowest = 0,
-                                std::uint32_t highest = 0) {
+  [[gnu::cold, gnu::noinline]] void refuse(std::uint8_t kind, link::Reason reason,
+                                           std::uint32_t lowest = 0, std::uint32_t highest = 0) {
     answer(refusal(kind, reason, lowest, highest));
   }
 
@@ -352,7 +353,7 @@ class LinkService {
     send(answer_);
   }
 
-  [[gnu::noinline]] void send(const link::Frame& frame) {
+  [[gnu::cold, gnu::noinline]] void send(const link::Frame& frame) {
     encoder_.begin(frame);
     while (encoder_.busy()) {
       encoder_.proceed();

@@ -42,7 +42,7 @@ class Unit {
   /// Takes the parameters from the store, or as compiled in where it holds none.
   /// @param design  outlives the unit.
   /// @param flash   holds the store; outlives the unit.
-  Unit(const FieldDesign<PartsT>& design, Flash& flash)
+  [[gnu::cold]] Unit(const FieldDesign<PartsT>& design, Flash& flash)
       : design_(design),
         store_(flash, design.design()),
         values_(design.presets()),
@@ -228,7 +228,7 @@ class Unit {
     order_parameters();
   }
 
-  [[gnu::noinline]] void order_parameters() {
+  [[gnu::cold, gnu::noinline]] void order_parameters() {
     supervisor_.order_parameters(design_.controller_parameters(values_), design_.target(target_),
                                  design_.timeout_periods(values_));
   }

@@ -7,6 +7,7 @@
 #include "controller_configuration.hpp"
 #include "firmware/app/field_parameters.hpp"
 #include "firmware/app/link_service.hpp"
+#include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/target_schedule.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/timed_targets.hpp"
@@ -49,16 +50,18 @@ constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
     configuration::design, configuration::step_period_s, 0);
 
+using Unit = app::Unit<configuration::Parts, hal::timed::VolatilePages, app::InterruptedWord>;
+
 }  // namespace
 
 int main() {
   hal::timed::VolatilePages flash;
   SilentLink bytes;
   hal::NoWatchdog watchdog;
-  app::Unit unit(design, flash);
+  Unit unit(design, flash);
   app::LinkService service(unit, bytes);
   auto& supervisor = unit.supervisor();
-  using Supervisor = decltype(unit)::Supervisor;
+  using Supervisor = Unit::Supervisor;
   CountedBoard<Supervisor::Sample, Supervisor::Drive> board;
   app::TimedLoop loop(supervisor, board, watchdog, service);
   supervisor.restart();

@@ -10,6 +10,7 @@
 #include "firmware/app/field_parameters.hpp"
 #include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
+#include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "hal/serial_line.hpp"
@@ -44,6 +45,9 @@ struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
 };
 
+/// Its processor is the only one.
+using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;
+
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
 static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks,
@@ -55,8 +59,8 @@ int main() {
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
-  app::Unit unit(design, flash);
-  app::LinkService<decltype(unit), Hardware::ByteLink,
+  Unit unit(design, flash);
+  app::LinkService<Unit, Hardware::ByteLink,
                    sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>
       service(unit, bytes);
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
