@@ -31,14 +31,12 @@ ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board
   const experiment::Experiment experiment =
       experiment::read_file(folders.controllers / image / "scene.toml");
   const emulated::ImageCost cost = emulated::measure_image(path, board);
-  emulated::ImageControl controller(board, path);
-  const std::uint64_t hash =
-      loop::run(experiment.plant, *experiment.design, controller).control->trace_hash;
-  if (hash != loop::run(experiment).control->trace_hash) {
+  const loop::RunResult result = emulated::run_emulator(experiment, board, path, {});
+  if (!result.image->workstation->same) {
     throw std::runtime_error(path.string() + ": its commands are not the workstation's");
   }
   return {cost, image_parts(board, path, cost.size.flash_bytes),
-          controller.shut_down().instructions.value()};
+          result.image->instructions.value()};
 }
 
 Row budget_row(const emulated::EmulatedBoard& board, const std::string& arithmetic,
