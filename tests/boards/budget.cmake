@@ -33,6 +33,16 @@ foreach(file IN LISTS files)
   endif()
 endforeach()
 
+# The scenes whose unit is measured as well: what it takes in lockstep, and the bytes of its product.
+set(budget_units target_step damped_by_force)
+set(unit_images "")
+foreach(scene IN LISTS budget_units)
+  foreach(image ${scene} ${scene}_q31)
+    list(APPEND unit_images ${image}_counted ${image}_timed)
+  endforeach()
+endforeach()
+list(JOIN budget_units " " budget_units)
+
 # sonoglide_feature_image(<scene> [<text> <replacement>]...): every part, but for what is replaced.
 function(sonoglide_feature_image scene)
   set(text "${every_part}")

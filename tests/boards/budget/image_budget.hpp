@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,20 @@ struct ImageBudget {
   loop::ImageInstructions instructions;  ///< over the whole scene
 };
 
+/// Of a unit: its control side over the whole scene, and the image that is its product.
+struct UnitBudget {
+  loop::InstructionRange control;
+  emulated::ImageCost cost;
+};
+
+/// Runs its scene with a unit in lockstep.
+/// Throws what measure() does.
+UnitBudget measure_unit(const Folders& folders, const emulated::EmulatedBoard& board,
+                        const std::string& image);
+
 /// Takes an image apart and runs its scene with it, in closed loop.
 /// @throws process::ProcessError, emulated::EmulatorError
-/// @throws std::runtime_error  a command differs from the workstation's: the cost of something else
+/// @throws loop::ComputationError  a command differs from the workstation's: the cost of something else
 ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board,
                     const std::string& image);
 
@@ -40,8 +52,10 @@ using Row = std::vector<Figure>;
 
 /// The row of a board's image of an example scene.
 /// @param compiler  its version
+/// @param unit      of the same scene, where it is measured
 Row budget_row(const emulated::EmulatedBoard& board, const std::string& arithmetic,
-               const std::string& scene, const std::string& compiler, const ImageBudget& budget);
+               const std::string& scene, const std::string& compiler, const ImageBudget& budget,
+               const std::optional<UnitBudget>& unit);
 
 /// The version of a board's compiler. Figures of two versions cannot be compared.
 std::string compiler_version(const emulated::EmulatedBoard& board);

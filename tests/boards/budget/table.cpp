@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "host_sim/emulated/board_list.hpp"
@@ -78,13 +80,24 @@ std::vector<std::string> example_scenes() {
   return scenes;
 }
 
+bool has_unit(const std::string& scene) {
+  std::istringstream names(SONOGLIDE_BUDGET_UNITS);
+  const std::istream_iterator<std::string> end;
+  return std::find(std::istream_iterator<std::string>(names), end, scene) != end;
+}
+
 std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
                                 const std::string& arithmetic) {
   const std::string compiler = compiler_version(board);
   std::vector<Row> rows;
   for (const std::string& scene : example_scenes()) {
-    rows.push_back(budget_row(board, arithmetic, scene, compiler,
-                              measure(folders, board, image_name(scene, arithmetic))));
+    const std::string image = image_name(scene, arithmetic);
+    std::optional<UnitBudget> unit;
+    if (has_unit(scene)) {
+      unit = measure_unit(folders, board, image);
+    }
+    rows.push_back(
+        budget_row(board, arithmetic, scene, compiler, measure(folders, board, image), unit));
   }
   return rows;
 }

@@ -12,6 +12,9 @@ namespace sonoglide::budget {
 /// Names of the closed-loop example scenes.
 std::vector<std::string> example_scenes();
 
+/// Whether the unit of an example scene is measured as well.
+bool has_unit(const std::string& scene);
+
 inline const std::vector<std::string> arithmetics = {"float32", "q31"};
 
 /// One row for each example scene.
