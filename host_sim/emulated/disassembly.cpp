@@ -268,6 +268,21 @@ std::optional<std::string> function_begun(const std::string& line) {
   return line.substr(bracket + 2, line.size() - bracket - 4);
 }
 
+/// The linker's way to a function that a branch does not reach is called `__<function>_veneer`: its one jump, through
+/// a word beside it, leads there.
+void see_through_veneer(const std::string& name, Function& function) {
+  const std::string beginning = "__";
+  const std::string ending = "_veneer";
+  const bool is_veneer = starts_with(name, beginning.c_str()) &&
+                         name.size() > beginning.size() + ending.size() &&
+                         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  if (is_veneer) {
+    function.doubt.clear();
+    function.calls = {
+        name.substr(beginning.size(), name.size() - beginning.size() - ending.size())};
+  }
+}
+
 /// Lines of the form `18e8: fffffbbc <tab> .word <tab> 0xfffffbbc`.
 Literals literals_in(const std::string& disassembly) {
   Literals literals;
@@ -296,6 +311,9 @@ Functions functions_in(const std::string& disassembly) {
     } else if (const auto instruction = parse_instruction(line); instruction && current) {
       take(*instruction, literals, current->first, registers, current->second);
     }
+  }
+  for (auto& [name, function] : functions) {
+    see_through_veneer(name, function);
   }
   return functions;
 }

@@ -127,6 +127,7 @@ TEST_F(ImageCommandTest, TheBytesOfANucleoBeginWithStackAndReset) {
   EXPECT_NE(outcome.out.find("load: openocd "), std::string::npos);
   EXPECT_NE(outcome.out.find("program unit.bin 0x08000000 verify reset exit\"\n"),
             std::string::npos);
+  EXPECT_EQ(numbers_of(outcome.out, "size:").size(), 3U) << outcome.out;
   const std::string bin = folder_.read("unit.bin");
   EXPECT_EQ(word(bin, 0) >> 24, 0x20U);
   EXPECT_EQ(word(bin, 4) >> 16, 0x0800U);

@@ -29,6 +29,20 @@ TEST_P(StackBoundTest, IsTheSumOfTheCompilersFramesAlongTheDeepestPath) {
                              compiled.frame_bytes("leaf"));
 }
 
+TEST(Veneer, LeadsToItsFunction) {
+  const std::string veneer =
+      "08000000 <reset>:\n 8000000:\tb570      \tpush\t{r4, r5, r6, lr}\n"
+      " 8000002:\tf000 f805 \tbl\t8000010 <__far_veneer>\n 8000006:\tbd70      \tpop\t{r4, r5, r6, pc}\n\n"
+      "08000010 <__far_veneer>:\n 8000010:\tf85f f000 \tldr.w\tpc, [pc]\t@ 8000014 <__far_veneer+0x4>\n"
+      " 8000014:\t10000001 \t.word\t0x10000001\n\n";
+  const std::string there =
+      "10000000 <far>:\n10000000:\tb500      \tpush\t{lr}\n10000002:\tbd00      \tpop\t{pc}\n";
+  const StackBound bound = stack_bound(veneer + there, "reset");
+  EXPECT_EQ(bound.unbounded_by, "");
+  EXPECT_EQ(bound.bytes, 20U);
+  EXPECT_EQ(stack_bound(veneer, "reset").unbounded_by, "far is not in the image");
+}
+
 TEST_P(StackBoundTest, LooksIntoTheCompilersLibrary) {
   const Compiled compiled(GetParam(), R"(
 extern "C" {
