@@ -116,8 +116,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     shown_.write(2, static_cast<std::uint32_t>(Base::sliding_velocity()));
     shown_.write(3, static_cast<std::uint32_t>(drive.amplitude));
     shown_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
-    shown_.write(5, drive.state | std::uint32_t{drive.limit} << 8 |
-                        std::uint32_t{drive.fault} << 16 | std::uint32_t{drive.settling} << 24);
+    shown_.write(5, codes_of(drive));
     shown_.end();
   }
 

@@ -6,8 +6,7 @@
 #include <cstdint>
 
 #include "firmware/app/identity.hpp"
-#include "firmware/app/mismatch.hpp"
-#include "firmware/app/unit.hpp"
+#include "firmware/app/unit_requests.hpp"
 #include "firmware/link/frame.hpp"
 #include "firmware/link/messages.hpp"
 #include "firmware/link/sequence.hpp"
@@ -28,6 +27,9 @@ namespace sonoglide::app {
 /// number but other content, is refused with the number of the last, from which a host that has lost
 /// count can go on. A hello begins the count anew. Damaged frames are counted and not answered.
 ///
+/// A sample of a stream is sent while nothing else is. An answer cuts it short: the host finds a damaged
+/// frame in its place.
+///
 /// @tparam ByteLink   see hal/board.hpp.
 /// @tparam MostBytes  that a service takes in and sends at most: what comes between two services, see
 ///                    hal::bytes_in. 32 will do for 115200 baud and a service each 2.6 ms.
@@ -38,7 +40,7 @@ class LinkService {
                 "the ring under a byte link holds two services' worth");
 
  public:
-  LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes) {}
+  LinkService(UnitT& unit, ByteLink& bytes) : unit_(unit), bytes_(bytes), requests_(unit) {}
 
   // Cold, as all that is not control: for fewer bytes, not for speed.
   /// Receives what has come. Then it carries out one request, or takes one step of a save, and sends what
@@ -61,25 +63,37 @@ class LinkService {
   };
 
   void proceed() {
-    if (ordering_ != 0) {
-      finish_order(unit_.order_end());
-    } else if (saving_ != 0) {
-      finish_save(unit_.proceed());
-    } else if (sent_ < encoder_.wire().size) {
-      return;  // one answer after the other
+    if (requests_.in_hand()) {
+      requests_.proceed(turns_.last());
+      answer_if_ready();
+    } else if (sends() && !streams_) {
+      // one answer after the other
     } else if (stopped_) {
       stopped_ = false;
       send(link::frame_of(link::Stopped{}, stop_sequence_));
     } else if (waiting_ > 0) {
       --waiting_;
-      take(requests_[first_]);
+      take(queue_[first_]);
       first_ = (first_ + 1) % most_waiting;
+    }
+    link::Streamed sample{};
+    if (requests_.take_sample(sample, !sends())) {
+      send(link::frame_of(sample));
+      streams_ = true;
+    }
+  }
+
+  bool sends() const { return sent_ < encoder_.wire().size; }
+
+  void answer_if_ready() {
+    if (!requests_.in_hand()) {
+      send(requests_.answer());
     }
   }
 
   /// @return whether a byte went out
   bool send_byte() {
-    if (sent_ == encoder_.wire().size || !bytes_.send(encoder_.wire().bytes[sent_])) {
+    if (!sends() || !bytes_.send(encoder_.wire().bytes[sent_])) {
       return false;
     }
     ++sent_;
@@ -114,7 +128,7 @@ class LinkService {
       case link::Reception::oversized:
       case link::Reception::corrupted:
       case link::Reception::wrong_version:
-        ++lost_frames_;
+        requests_.count_lost_frame();
         break;
     }
   }
@@ -125,10 +139,10 @@ class LinkService {
       unit_.stop();
       overtake(frame.sequence);
     } else if (waiting_ < most_waiting) {
-      requests_[(first_ + waiting_) % most_waiting] = {frame, decoder_.checksum(), faults_};
+      queue_[(first_ + waiting_) % most_waiting] = {frame, decoder_.checksum(), faults_};
       ++waiting_;
     } else {
-      ++lost_frames_;
+      requests_.count_lost_frame();
     }
   }
 
@@ -150,208 +164,22 @@ class LinkService {
     const link::Turn turn = turns_.take(frame.sequence);
     const bool again = turn == link::Turn::repeated && request.checksum == checksum_;
     if (again && link::is_reading(frame.kind)) {
-      dispatch(frame);
+      requests_.take_again(frame);
+      answer_if_ready();
     } else if (again && frame.kind != link::Restart::kind) {
-      send(answer_);
+      send(requests_.answer());
     } else if (turn == link::Turn::repeated || turn == link::Turn::late) {
+      constexpr auto out_of_turn = static_cast<std::uint8_t>(link::Reason::out_of_turn);
       const std::uint32_t last = turns_.last();
-      send(link::frame_of(refusal(frame.kind, link::Reason::out_of_turn, last, last),
-                          frame.sequence));
+      send(link::frame_of(link::Refusal{frame.kind, out_of_turn, last, last}, frame.sequence));
     } else {
       checksum_ = request.checksum;
-      sequence_ = frame.sequence;
-      request_faults_ = request.faults;
-      if (request.faults == faults()) {
-        dispatch(frame);
-      } else {
-        refuse(frame.kind, link::Reason::overtaken_by_fault);
-      }
+      requests_.take(frame, request.faults);
+      answer_if_ready();
     }
   }
 
   std::uint32_t faults() const { return unit_.supervisor().faults().count(); }
-
-  void dispatch(const link::Frame& request) {
-    if (request.kind == link::Stop::kind) {
-      refuse(request.kind, link::Reason::wrong_length);  // one of the right length does not wait
-      return;
-    }
-    const bool known = handles<link::ReadTelemetry>(request) || handles<link::SetTarget>(request) ||
-                       handles<link::ReadParameter>(request) ||
-                       handles<link::WriteParameter>(request) || handles<link::Restart>(request) ||
-                       handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
-                       handles<link::Hello>(request) || handles<link::ReadIdentity>(request);
-    if (!known) {
-      refuse(request.kind, link::Reason::unknown_request);
-    }
-  }
-
-  template <class Request>
-  bool handles(const link::Frame& frame) {
-    if (frame.kind != Request::kind) {
-      return false;
-    }
-    Request request{};
-    if (link::read(frame, request)) {
-      carry_out(request);
-    } else {
-      refuse(frame.kind, link::Reason::wrong_length);
-    }
-    return true;
-  }
-
-  // ---- Requests ----
-
-  void carry_out(const link::ReadTelemetry& /*request*/) {
-    const Snapshot shown = unit_.supervisor().snapshot();
-    const hal::Drive& drive = shown.drive;
-    answer(link::Telemetry{shown.periods, shown.friction_force, shown.sliding_velocity,
-                           drive.amplitude, unit_.target(), drive.state, drive.limit, drive.fault,
-                           static_cast<std::uint8_t>(unit_.origin()), lost_frames_, drive.settling,
-                           mismatch_thousandths(drive, unit_.target_ratio())});
-  }
-
-  void carry_out(const link::Hello& request) {
-    answer(link::Greeted{request.session, unit_.design()});
-  }
-
-  void carry_out(const link::ReadIdentity& /*request*/) {
-    constexpr auto board = padded<link::most_name_characters>(Product::board);
-    answer(link::Identity{version.major_number, version.minor_number, version.patch_number,
-                          unit_.design(), Product::serial_number(), board});
-  }
-
-  void carry_out(const link::SetTarget& request) {
-    if (unit_.set_target(request.target, request_faults_) == Answer::taken) {
-      ordering_ = request.kind;
-    } else {
-      refuse_value(request.kind, unit_.range(Parameter::target));
-    }
-  }
-
-  void carry_out(const link::ReadParameter& request) {
-    if (request.parameter >= parameter_count) {
-      refuse_parameter(request.kind);
-      return;
-    }
-    const ParameterRange& range = unit_.range(request.parameter);
-    answer(link::ParameterValue{
-        request.parameter, parameter_labels[request.parameter].decimal_places,
-        unit_.value(request.parameter), range.lowest, range.highest, range.preset});
-  }
-
-  void carry_out(const link::WriteParameter& request) {
-    switch (unit_.write(request.parameter, request.value)) {
-      case Answer::taken:
-        writing_ = request;
-        saving_ = request.kind;
-        break;
-      case Answer::out_of_range:
-        refuse_value(request.kind, unit_.range(request.parameter));
-        break;
-      case Answer::unknown_parameter:
-        refuse_parameter(request.kind);
-        break;
-      case Answer::drive_not_stopped:
-      case Answer::parameters_not_confirmed:
-        refuse(request.kind, link::Reason::drive_not_stopped);
-        break;
-    }
-  }
-
-  void carry_out(const link::Confirm& request) {
-    if (unit_.confirm() == Answer::taken) {
-      saving_ = request.kind;
-    } else {
-      refuse(request.kind, link::Reason::drive_not_stopped);
-    }
-  }
-
-  void finish_save(store::Saving saving) {
-    if (saving == store::Saving::busy) {
-      return;
-    }
-    const std::uint8_t request = saving_;
-    saving_ = 0;
-    if (saving != store::Saving::saved) {
-      refuse(request, link::Reason::not_saved);
-    } else if (request == link::Confirm::kind) {
-      answer(link::Confirmed{});
-    } else {
-      link::ParameterWritten written{};
-      written.parameter = writing_.parameter;
-      written.value = writing_.value;
-      answer(written);
-    }
-  }
-
-  void carry_out(const link::Restart& request) {
-    if (unit_.restart(request_faults_) == Answer::taken) {
-      ordering_ = request.kind;
-    } else {
-      refuse(request.kind, link::Reason::parameters_not_confirmed);
-    }
-  }
-
-  /// A restart is done or refused before it is answered, and so is a new target.
-  void finish_order(OrderEnd end) {
-    if (end == OrderEnd::pending) {
-      return;
-    }
-    const std::uint8_t request = ordering_;
-    ordering_ = 0;
-    if (end == OrderEnd::overtaken) {
-      if (request_faults_ != faults()) {
-        refuse(request, link::Reason::overtaken_by_fault);
-      } else {
-        refuse(request, link::Reason::out_of_turn, turns_.last(), turns_.last());
-      }
-    } else if (request == link::Restart::kind) {
-      answer(link::Restarted{});
-    } else {
-      link::TargetSet set{};
-      set.target = unit_.target();
-      answer(set);
-    }
-  }
-
-  void carry_out(const link::ReadFault& request) {
-    FaultEntry entry{};
-    std::uint32_t count = 0;
-    const auto& log = unit_.supervisor().faults();
-    if (log.read(request.age, entry, count)) {
-      answer(link::LoggedFault{request.age, entry.fault, entry.period, count});
-    } else {
-      refuse(request.kind, link::Reason::no_such_fault, 0, static_cast<std::uint32_t>(log.kept()));
-    }
-  }
-
-  // ---- Answers ----
-
-  void refuse_value(std::uint8_t kind, const ParameterRange& range) {
-    refuse(kind, link::Reason::out_of_range, range.lowest, range.highest);
-  }
-
-  void refuse_parameter(std::uint8_t kind) {
-    refuse(kind, link::Reason::unknown_parameter, 0, parameter_count - 1);
-  }
-
-  [[gnu::cold, gnu::noinline]] void refuse(std::uint8_t kind, link::Reason reason,
-                                           std::uint32_t lowest = 0, std::uint32_t highest = 0) {
-    answer(refusal(kind, reason, lowest, highest));
-  }
-
-  static link::Refusal refusal(std::uint8_t kind, link::Reason reason, std::uint32_t lowest,
-                               std::uint32_t highest) {
-    return {kind, static_cast<std::uint8_t>(reason), lowest, highest};
-  }
-
-  /// Answers the request at hand, and keeps the answer for a repetition.
-  template <class Message>
-  void answer(const Message& message) {
-    answer_ = link::frame_of(message, sequence_);
-    send(answer_);
-  }
 
   [[gnu::cold, gnu::noinline]] void send(const link::Frame& frame) {
     encoder_.begin(frame);
@@ -359,28 +187,24 @@ class LinkService {
       encoder_.proceed();
     }
     sent_ = 0;
+    streams_ = false;
   }
 
   UnitT& unit_;
   ByteLink& bytes_;
   link::FrameDecoder decoder_;
-  std::array<Received, most_waiting> requests_{};  ///< that wait, from first_ on
+  std::array<Received, most_waiting> queue_{};  ///< from first_ on
   std::size_t first_ = 0;
   std::size_t waiting_ = 0;
   std::uint32_t faults_ = 0;  ///< since reset, when the frame that is being received began
   link::SequenceWatch turns_;
-  std::uint32_t checksum_ = 0;        ///< of the last request
-  std::uint16_t sequence_ = 0;        ///< of the request at hand
-  std::uint16_t stop_sequence_ = 0;   ///< of the last stop
-  bool stopped_ = false;              ///< and that is not yet answered
-  std::uint8_t saving_ = 0;           ///< kind of the request whose save goes on
-  std::uint8_t ordering_ = 0;         ///< kind of the request whose order is pending
-  std::uint32_t request_faults_ = 0;  ///< since reset, when the request at hand came
-  std::uint16_t lost_frames_ = 0;
-  link::WriteParameter writing_{};
-  link::Frame answer_;  ///< to the last request that was carried out
+  std::uint32_t checksum_ = 0;       ///< of the last request
+  std::uint16_t stop_sequence_ = 0;  ///< of the last stop
+  bool stopped_ = false;             ///< and that is not yet answered
+  UnitRequests<UnitT, Product> requests_;
   link::FrameEncoder encoder_;
   std::size_t sent_ = 0;  ///< of the encoder's wire
+  bool streams_ = false;  ///< that is a sample, which an answer cuts short
 };
 
 }  // namespace sonoglide::app

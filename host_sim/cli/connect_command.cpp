@@ -73,7 +73,13 @@ void connect(const ConnectOptions& options) {
     print("connected; help lists the commands, Ctrl-D leaves");
   }
   TypedLines lines;
+  const auto print_rows = [&] {
+    for (const std::string& row : console.take_rows()) {
+      print(row);
+    }
+  };
   const auto tell_news = [&] {
+    print_rows();
     const std::string news = console.tell_news();
     if (!news.empty() && !options.quiet) {
       print(news);
@@ -83,6 +89,7 @@ void connect(const ConnectOptions& options) {
     for (const std::string& answer : console.carry_out(line)) {
       print(answer);
     }
+    print_rows();
   }
   if (!typed && console.refused() > 0) {
     throw process::ProcessError(fmt::format("{}: commands that were not carried out: {}",

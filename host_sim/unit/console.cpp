@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 
 #include "firmware/app/parameter_labels.hpp"
@@ -19,7 +20,8 @@ namespace {
 using app::parameter_labels;
 
 constexpr const char* help_text =
-    "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE";
+    "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE, "
+    "stream CHANNEL ... [every N], stream off";
 
 std::string decimal(std::uint32_t value, int places) {
   std::array<char, encoding::most_decimal_characters> text{};
@@ -119,12 +121,15 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter) {
 }
 
 std::vector<std::string> Console::carry_out(const std::string& line) {
-  std::istringstream stream(line);
+  std::istringstream text(line);
   std::vector<std::string> words;
-  for (std::string word; stream >> word;) {
+  for (std::string word; text >> word;) {
     words.push_back(word);
   }
   const std::string command = words.empty() ? "" : words[0];
+  if (command == "stream") {
+    return stream({words.begin() + 1, words.end()});
+  }
   switch (words.size()) {
     case 0:
       return {};
@@ -186,6 +191,14 @@ std::string Console::tell_news() {
   const bool is_new = told.fault != 0 && told.fault != told_fault_;
   told_fault_ = told.fault;
   return is_new ? fmt::format("fault {}", app::fault_name(told.fault)) : "";
+}
+
+Console::Lines Console::take_rows() {
+  Lines rows;
+  for (const link::Streamed& sample : unit_.take_streamed()) {
+    rows.push_back(table_.row(sample));
+  }
+  return rows;
 }
 
 Console::Lines Console::status() {
@@ -282,6 +295,28 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
   return {fmt::format("{} {}, saved", name,
                       decimal(std::get<link::ParameterWritten>(result).value,
                               parameter_labels[parameter].decimal_places))};
+}
+
+Console::Lines Console::stream(const std::vector<std::string>& words) {
+  const std::optional<link::Stream> wanted = stream_of(words);
+  if (!wanted) {
+    return refuse(
+        fmt::format("stream CHANNEL ... [every N], or stream off; channels: {}; N: 1 to 65535",
+                    channel_names()));
+  }
+  // That of before ends first, so that its samples are not taken for those of the next.
+  const auto ended = unit_.ask<link::Streaming>(link::Stream{0, 1});
+  if (const auto* refusal = std::get_if<link::Refusal>(&ended)) {
+    return refuse(*refusal, 0);
+  }
+  Lines lines = take_rows();
+  if (wanted->channels == 0) {
+    lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
+  } else {
+    unit_.ask<link::Streaming>(*wanted);
+    lines.push_back(table_.begin(*wanted));
+  }
+  return lines;
 }
 
 link::Telemetry Console::telemetry() {

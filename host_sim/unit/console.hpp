@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/unit/stream_table.hpp"
 #include "host_sim/unit/unit_link.hpp"
 
 namespace sonoglide::unit {
@@ -43,6 +44,10 @@ class Console {
   /// @throws process::ProcessError  the unit does not answer
   std::string tell_news();
 
+  /// The rows of the stream that have come since the last call.
+  /// @throws process::ProcessError  the device is gone
+  std::vector<std::string> take_rows();
+
   /// Commands that were refused, here or by the unit.
   std::size_t refused() const { return refused_; }
 
@@ -59,12 +64,15 @@ class Console {
   Lines list_parameter(const std::string& name);
   Lines set_parameter(const std::string& name, const std::string& text);
 
+  Lines stream(const std::vector<std::string>& words);
+
   link::Telemetry telemetry();
   Lines refuse(const std::string& reason);
   /// @param parameter  of the value that was asked for
   Lines refuse(const link::Refusal& refusal, std::size_t parameter);
 
   UnitLink& unit_;
+  StreamTable table_;
   std::size_t refused_ = 0;
   unsigned told_fault_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "host_sim/unit/unit_link.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <random>
 
@@ -81,15 +83,40 @@ bool UnitLink::receive(std::uint16_t sequence, std::chrono::milliseconds patienc
     if (port_.receive(&byte, 1, left) == 0) {
       continue;
     }
-    heard_bytes_ = true;
-    const link::Reception reception = decoder_.take(byte);
-    other_version_ |= reception == link::Reception::wrong_version;
-    heard_frame_ |= reception == link::Reception::frame;
-    if (reception == link::Reception::frame && decoder_.frame().sequence == sequence) {
+    if (take(byte) && decoder_.frame().sequence == sequence) {
       answer = decoder_.frame();
       return true;
     }
   }
+}
+
+bool UnitLink::take(std::uint8_t byte) {
+  constexpr std::size_t most_kept = 65536;
+  heard_bytes_ = true;
+  const link::Reception reception = decoder_.take(byte);
+  other_version_ |= reception == link::Reception::wrong_version;
+  heard_frame_ |= reception == link::Reception::frame;
+  if (reception != link::Reception::frame) {
+    return false;
+  }
+  link::Streamed sample{};
+  if (!link::read(decoder_.frame(), sample)) {
+    return true;
+  }
+  streamed_.push_back(sample);
+  if (streamed_.size() > most_kept) {
+    streamed_.pop_front();
+  }
+  return false;
+}
+
+std::vector<link::Streamed> UnitLink::take_streamed() {
+  std::array<std::uint8_t, 4096> bytes{};
+  const std::size_t count = port_.receive(bytes.data(), bytes.size(), std::chrono::milliseconds(0));
+  std::for_each_n(bytes.begin(), count, [this](std::uint8_t byte) { take(byte); });
+  std::vector<link::Streamed> samples(streamed_.begin(), streamed_.end());
+  streamed_.clear();
+  return samples;
 }
 
 void UnitLink::fail(const std::string& reason) const {

@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "firmware/link/frame.hpp"
 #include "firmware/link/messages.hpp"
@@ -12,7 +14,8 @@
 
 namespace sonoglide::unit {
 
-/// The host's end of the framed link (firmware/link). One request at a time.
+/// The host's end of the framed link (firmware/link). One request at a time. What a unit streams meanwhile
+/// is kept until it is taken.
 class UnitLink {
  public:
   static constexpr std::chrono::milliseconds usual_patience{400};
@@ -42,18 +45,26 @@ class UnitLink {
     return refusal;
   }
 
+  /// The samples of a stream that have come since the last call, in their order; of more than 65536 the
+  /// latest. It does not wait.
+  /// @throws process::ProcessError  the device is gone
+  std::vector<link::Streamed> take_streamed();
+
  private:
   /// @return the answer to the request, whatever sequence number the latter has
   link::Frame exchange(link::Frame request, std::chrono::milliseconds patience);
   /// Sends it up to three times. A refusal is an answer too.
   link::Frame answer_to(const link::Frame& request, std::chrono::milliseconds patience);
   bool receive(std::uint16_t sequence, std::chrono::milliseconds patience, link::Frame& answer);
+  /// @return whether it ends a frame that is no sample of a stream
+  bool take(std::uint8_t byte);
   [[noreturn]] void fail(const std::string& reason) const;
 
   process::SerialPort& port_;
   std::chrono::milliseconds patience_;
   link::FrameDecoder decoder_;
   std::uint16_t sequence_;
+  std::deque<link::Streamed> streamed_;
   bool heard_bytes_ = false;
   bool heard_frame_ = false;
   bool other_version_ = false;

@@ -447,7 +447,7 @@ TEST(LinkServiceTest, UnknownAndMisshapenRequestsAreRefused) {
     powered.put(frame);
     expect_refusal(powered.answers().at(0), frame.kind, Reason::unknown_request, 0, 0);
   }
-  for (std::uint8_t kind = 1; kind <= link::ReadIdentity::kind; ++kind) {
+  for (std::uint8_t kind = 1; kind <= link::Stream::kind; ++kind) {
     link::Frame frame;
     frame.kind = kind;
     frame.sequence = ++powered.sequence;
@@ -467,6 +467,107 @@ TEST(LinkServiceTest, DamagedFramesAreCountedAndCostNoStep) {
   EXPECT_EQ(powered.telemetry().lost_frames, 1);
   EXPECT_EQ(powered.telemetry().state, running);
   EXPECT_EQ(powered.watchdog.feeds, static_cast<int>(powered.unit.supervisor().periods()));
+}
+
+class StreamTest : public testing::Test {
+ protected:
+  /// The samples among what the unit sends in some periods, its answers left out.
+  std::vector<link::Streamed> samples() {
+    std::vector<link::Streamed> found;
+    for (const link::Frame& frame : powered_.answers()) {
+      link::Streamed sample{};
+      if (link::read(frame, sample)) {
+        found.push_back(sample);
+      }
+    }
+    return found;
+  }
+  std::vector<link::Streamed> samples_of(link::Stream stream) {
+    powered_.put(link::frame_of(stream, ++powered_.sequence));
+    return samples();
+  }
+
+  SimulatedFlash flash_;
+  PoweredUnit powered_{flash_};
+};
+
+TEST_F(StreamTest, ShowsTheChosenChannelsOfEachSoManySteps) {
+  powered_.start();
+  const std::vector<link::Streamed> found = samples_of({0x3F, 150});
+  ASSERT_GE(found.size(), 3U);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].number, i);
+    EXPECT_EQ(found[i].channels, 0x3F);
+    // The line was taken by the answer when the first was due.
+    if (i > 0) {
+      EXPECT_EQ(found[i].period, found[1].period + 150 * (i - 1));
+    }
+    EXPECT_EQ(found[i].values[4], 400000U);
+    EXPECT_EQ(found[i].values[5] & 0xFFU, running);
+    EXPECT_NEAR(static_cast<std::int32_t>(found[i].values[0]), 0.4 * TimedBoard::friction * 0x1p31,
+                1e-3 * 0x1p31);
+    EXPECT_NEAR(static_cast<std::int32_t>(found[i].values[3]), 0.4 * 0x1p30, 1e-3 * 0x1p30);
+  }
+  EXPECT_EQ(
+      samples_of({0x04, 200}).at(2).values,
+      (std::array<std::uint32_t, link::channel_count>{
+          0, 0, static_cast<std::uint32_t>(powered_.board.latest_drive().amplitude), 0, 0, 0}));
+}
+
+TEST_F(StreamTest, EndsWithNoChannelAndWithAHello) {
+  EXPECT_FALSE(samples_of({0x01, 10}).empty());
+  EXPECT_FALSE(samples().empty());
+  samples_of({0, 1});
+  EXPECT_TRUE(samples().empty());
+  EXPECT_FALSE(samples_of({0x01, 10}).empty());
+  powered_.put(link::frame_of(link::Hello{7}, 3));
+  samples();
+  EXPECT_TRUE(samples().empty());
+}
+
+TEST_F(StreamTest, LeavesOutWhatTheLineHasNoRoomForAndItsNumber) {
+  // A frame of 37 bytes and its stuffing takes the wire of the test twice as many periods.
+  const std::vector<link::Streamed> found = samples_of({0x3F, 1});
+  ASSERT_GT(found.size(), 4U);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    EXPECT_GT(found[i].number - found[i - 1].number, 40);
+    EXPECT_EQ(static_cast<std::uint32_t>(found[i].number - found[i - 1].number),
+              found[i].period - found[i - 1].period);
+  }
+  powered_.wire.blocked = true;
+  powered_.serve(70000);
+  powered_.wire.blocked = false;
+  const std::vector<link::Streamed> after = samples();
+  EXPECT_EQ(static_cast<std::uint16_t>(after.at(1).number - found.back().number),
+            static_cast<std::uint16_t>(after.at(1).period - found.back().period));
+}
+
+TEST_F(StreamTest, IsCutShortByAnAnswer) {
+  samples_of({0x3F, 1});
+  powered_.serve(10);  // in the middle of a sample
+  for (int i = 0; i < 100; ++i) {
+    powered_.serve(i);
+    powered_.wire.from_unit.clear();
+    powered_.put(link::frame_of(link::ReadFault{0}, ++powered_.sequence));
+    // A byte a period to come, and every other period one to go.
+    powered_.serve(12 + 2 * 21 + 1);
+    link::FrameDecoder decoder;
+    bool answered = false;
+    for (const std::uint8_t byte : powered_.wire.from_unit) {
+      answered = answered || (decoder.take(byte) == link::Reception::frame &&
+                              decoder.frame().sequence == powered_.sequence &&
+                              decoder.frame().kind == link::Refusal::kind);
+    }
+    EXPECT_TRUE(answered) << i;
+  }
+}
+
+TEST_F(StreamTest, RefusesWhatThereIsNot) {
+  expect_refusal(powered_.answer_to(link::Stream{0x40, 1}), link::Stream::kind,
+                 Reason::out_of_range, 0, 63);
+  expect_refusal(powered_.answer_to(link::Stream{0x01, 0}), link::Stream::kind,
+                 Reason::out_of_range, 1, 65535);
+  EXPECT_TRUE(samples().empty());
 }
 
 // The bound on what a carrier period spends on the link.

@@ -146,14 +146,18 @@ class SerialUnit {
     }
   }
 
-  /// The next whole frame that comes, until a time.
+  /// The next whole frame that comes until a time, but for the samples of a stream, which are counted.
   bool frame(link::Frame& frame, double until) {
     while (uart_.now < until) {
       for (; taken_ < uart_.from_unit.size();) {
-        if (decoder_.take(uart_.from_unit[taken_++]) == link::Reception::frame) {
+        if (decoder_.take(uart_.from_unit[taken_++]) != link::Reception::frame) {
+          continue;
+        }
+        if (decoder_.frame().kind != link::Streamed::kind) {
           frame = decoder_.frame();
           return true;
         }
+        ++samples;
       }
       proceed();
     }
@@ -161,9 +165,13 @@ class SerialUnit {
   }
 
   int services = 0;
+  int samples = 0;
+
+  /// That go out before whatever the unit sends next.
+  static constexpr std::size_t sent_ahead_bytes = 64;
 
  private:
-  using Bytes = hal::BufferedLink<Uart, 2 * MostBytes, 64>;
+  using Bytes = hal::BufferedLink<Uart, 2 * MostBytes, sent_ahead_bytes>;
   using Service = LinkService<TestedUnit, Bytes, MostBytes>;
 
   /// Its periods are those of the service.
@@ -215,9 +223,27 @@ link::Frame request(std::uint16_t number) {
   }
 }
 
+/// More than any line carries.
+link::Frame stream(std::uint16_t number) {
+  return link::frame_of(link::Stream{link::all_channels, 1}, number);
+}
+
+/// @param streams  beside the answers
 template <std::size_t MostBytes>
-void expect_every_request_is_answered(const Line& line) {
+void expect_every_request_is_answered(const Line& line, bool streams) {
   SerialUnit<MostBytes> unit(line);
+  // What waits below the link is not cut short: in the ring, beside it, in the UART and on the line.
+  const double ahead_s =
+      streams ? static_cast<double>(unit.sent_ahead_bytes + line.queue_bytes + 2) * line.byte_s()
+              : 0.0;
+  if (streams) {
+    unit.put(wire_bytes(stream(0xFFFF)));
+    link::Frame answer;
+    ASSERT_TRUE(unit.frame(answer, 1.0)) << line;
+    ASSERT_FALSE(unit.frame(answer, unit.now() + 200 * line.byte_s() + 20 * line.service_s()))
+        << line;
+    ASSERT_GT(unit.samples, 2) << line;
+  }
   for (std::uint16_t number = 0; number < 50; ++number) {
     const std::vector<std::uint8_t> sent = wire_bytes(request(number));
     const double begin = unit.now();
@@ -227,19 +253,24 @@ void expect_every_request_is_answered(const Line& line) {
     ASSERT_EQ(answer.sequence, number) << line;
     const double line_s =
         static_cast<double>(sent.size() + wire_bytes(answer).size()) * line.byte_s();
-    ASSERT_LE(unit.now() - begin, line_s + 4 * line.service_s()) << line << ": " << number;
+    ASSERT_LE(unit.now() - begin, line_s + ahead_s + 4 * line.service_s())
+        << line << ": " << number;
   }
   EXPECT_EQ(unit.lost(), 0) << line;
 }
 
-/// @param sends  whole requests, or noise
+/// @param sends_requests  whole ones, or noise
 template <std::size_t MostBytes>
-void expect_a_stop_acts_behind_a_burst(const Line& line, bool sends_requests) {
+void expect_a_stop_acts_behind_a_burst(const Line& line, bool sends_requests, bool streams) {
   SerialUnit<MostBytes> unit(line);
-  unit.put(wire_bytes(link::frame_of(link::Restart{}, 0)));
+  unit.put(wire_bytes(link::frame_of(link::Restart{}, 0xFFFF)));
   link::Frame answer;
   ASSERT_TRUE(unit.frame(answer, 1.0)) << line;
   ASSERT_TRUE(unit.driving()) << line;
+  if (streams) {
+    unit.put(wire_bytes(stream(0)));
+    ASSERT_TRUE(unit.frame(answer, unit.now() + 1.0)) << line;
+  }
   std::minstd_rand random(7);
   std::vector<std::uint8_t> burst;
   for (std::uint16_t number = 1; burst.size() < 600; ++number) {
@@ -292,16 +323,20 @@ TEST(SerialLine, BringsNoMoreThanItsBound) {
 }
 
 TEST(SerialLink, AnswersEveryRequestOnEveryLineInTime) {
-  on_every_line([](const Line& line, auto bound) {
-    expect_every_request_is_answered<decltype(bound)::value>(line);
-  });
+  for (const bool streams : {false, true}) {
+    on_every_line([&](const Line& line, auto bound) {
+      expect_every_request_is_answered<decltype(bound)::value>(line, streams);
+    });
+  }
 }
 
 TEST(SerialLink, AStopActsBehindABurstOnEveryLine) {
   for (const bool sends_requests : {true, false}) {
-    on_every_line([&](const Line& line, auto bound) {
-      expect_a_stop_acts_behind_a_burst<decltype(bound)::value>(line, sends_requests);
-    });
+    for (const bool streams : {false, true}) {
+      on_every_line([&](const Line& line, auto bound) {
+        expect_a_stop_acts_behind_a_burst<decltype(bound)::value>(line, sends_requests, streams);
+      });
+    }
   }
 }
 

@@ -63,6 +63,13 @@ Identity identity() {
   return message;
 }
 
+Streaming streaming() {
+  Streaming message{};
+  message.channels = 0x25;
+  message.every = 600;
+  return message;
+}
+
 template <class Message>
 Message of_target() {
   Message message{};
@@ -124,10 +131,44 @@ TEST(MessageBytes, AreThoseOfTheReference) {
       {frame_of(ReadIdentity{}, 10), "0004020a0a05cb7a357c00"},
       {frame_of(identity(), 10),
        "0004028a0a0a010203efcdab89671201077261696c2d32010101010101010101055f16594500"},
+      {frame_of(Stream{0x25, 600}, 11), "0004020b0b08255802fe3d0eb500"},
+      {frame_of(streaming(), 11), "0004028b0b082558022629beab00"},
+      {frame_of(Streamed{0x0102, 0x25, 0x01020304, {0xfffffffe, 7, 0x21222324, 7, 7, 0x01100003}}),
+       "001302c002012504030201feffffff24232221030710018e64c54600"},
+      {frame_of(Streamed{0xFFFF, 0x3F, 600, {1, 2, 3, 4, 400000, 6}}),
+       "000802c0ffff3f5802010201010102020101020301010204010104801a060206010105fd49c0b200"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {
     EXPECT_EQ(hexadecimal(row.frame), row.bytes) << int{row.frame.kind};
+  }
+}
+
+TEST(StreamedFrame, IsReadAsItWasMadeForEverySetOfChannels) {
+  for (std::uint8_t channels = 0; channels <= all_channels; ++channels) {
+    Streamed made{};
+    made.number = 0x1234;
+    made.channels = channels;
+    made.period = 0xfedcba98;
+    for (std::size_t i = 0; i < channel_count; ++i) {
+      made.values.at(i) = made.has(i) ? 0x80000001U + static_cast<std::uint32_t>(i) : 0;
+    }
+    Frame frame = frame_of(made);
+    Streamed found{};
+    ASSERT_TRUE(read(frame, found)) << int{channels};
+    EXPECT_EQ(found.number, made.number);
+    EXPECT_EQ(found.channels, channels);
+    EXPECT_EQ(found.period, made.period);
+    EXPECT_EQ(found.values, made.values);
+    for (const int more : {-1, 1}) {
+      Frame other = frame;
+      other.payload_bytes = static_cast<std::uint8_t>(other.payload_bytes + more);
+      EXPECT_FALSE(read(other, found)) << int{channels} << ' ' << more;
+    }
+    frame.payload[0] = 0xFF;  // channels that there are not
+    EXPECT_FALSE(channels != all_channels && read(frame, found)) << int{channels};
+    frame.kind = Telemetry::kind;
+    EXPECT_FALSE(read(frame, found));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -126,6 +127,49 @@ TEST_F(ConsoleTest, SaysWhatTheUnitIs) {
                         served_.design()));
 }
 
+TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
+  EXPECT_EQ(ask("stream state amplitude every 500"),
+            (Lines{"number,period,amplitude,state,limit,fault,settling"}));
+  Lines rows;
+  while (rows.size() < 20) {
+    const Lines more = console_.take_rows();
+    rows.insert(rows.end(), more.begin(), more.end());
+    ask("status");
+  }
+  std::regex pattern("([0-9]+),([0-9]+),0,off,none,none,pending");
+  long last = -1;
+  for (const std::string& row : rows) {
+    std::smatch found;
+    ASSERT_TRUE(std::regex_match(row, found, pattern)) << row;
+    EXPECT_GT(std::stol(found[1]), last);
+    last = std::stol(found[1]);
+  }
+  EXPECT_EQ(ask("stream off").back().find("stream off, samples lost: "), 0U);
+  ask("status");
+  EXPECT_EQ(console_.take_rows(), Lines{});
+  EXPECT_EQ(console_.refused(), 0U);
+  for (const char* wrong : {"stream", "stream speed", "stream target every 0", "stream every 5",
+                            "stream target every", "stream target every 65536", "stream off off"}) {
+    EXPECT_EQ(line_of(wrong),
+              "stream CHANNEL ... [every N], or stream off; channels: friction_force, "
+              "sliding_velocity, amplitude, commanded_ratio, target, state; N: 1 to 65535")
+        << wrong;
+  }
+}
+
+TEST(StreamTableTest, CountsWhatIsLeftOutAndShowsCodesExactly) {
+  StreamTable table;
+  EXPECT_EQ(table.begin({0x1B, 1}),
+            "number,period,friction_force,sliding_velocity,commanded_ratio,target");
+  EXPECT_EQ(table.row({65535, 0x1B, 7, {0x80000000, 1, 0, 0x40000000, 400000, 0}}),
+            "65535,7,-1,4.656612873077393e-10,1,0.4");
+  EXPECT_EQ(table.lost(), 65535U);
+  table.row({0, 0x1B, 8, {}});
+  EXPECT_EQ(table.lost(), 65535U);
+  table.row({3, 0x1B, 8, {}});
+  EXPECT_EQ(table.lost(), 65537U);
+}
+
 TEST_F(ConsoleTest, ReadsAndWritesParametersByName) {
   const Lines all = ask("params");
   ASSERT_EQ(all.size(), app::parameter_count);
@@ -147,7 +191,7 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
       "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
-      "set NAME VALUE";
+      "set NAME VALUE, stream CHANNEL ... [every N], stream off";
   EXPECT_EQ(line_of("help"), commands);
   for (const char* unknown : {"go", "target", "stop now", "set a", "set a 1 2"}) {
     EXPECT_EQ(line_of(unknown), "unknown; there are: " + commands) << unknown;

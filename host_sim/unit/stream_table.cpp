@@ -1,0 +1,106 @@
+#include "host_sim/unit/stream_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "firmware/app/unit_names.hpp"
+#include "firmware/control/interface/names.hpp"
+#include "firmware/encoding/decimal.hpp"
+
+namespace sonoglide::unit {
+namespace {
+
+constexpr std::array<const char*, link::channel_count> names = {
+    "friction_force", "sliding_velocity", "amplitude", "commanded_ratio", "target", "state"};
+
+std::string column_of(std::size_t channel) {
+  return static_cast<link::Channel>(channel) == link::Channel::codes ? "state,limit,fault,settling"
+                                                                     : names.at(channel);
+}
+
+std::string text_of(std::size_t channel, std::uint32_t value) {
+  switch (static_cast<link::Channel>(channel)) {
+    case link::Channel::commanded_ratio:
+      return fmt::format("{}", static_cast<std::int32_t>(value) * 0x1p-30);
+    case link::Channel::target:
+      return fmt::format("{}", value / 1e6);
+    case link::Channel::codes:
+      return text_of_codes(value);
+    case link::Channel::friction_force:
+    case link::Channel::sliding_velocity:
+    case link::Channel::amplitude:
+      break;
+  }
+  return text_of_code(value);
+}
+
+}  // namespace
+
+std::optional<link::Stream> stream_of(const std::vector<std::string>& words) {
+  link::Stream stream{0, 1};
+  if (words.size() == 1 && words[0] == "off") {
+    return stream;
+  }
+  std::size_t names_given = words.size();
+  if (words.size() > 2 && words[words.size() - 2] == "every") {
+    names_given -= 2;
+    const std::string& number = words.back();
+    const auto [end, error] =
+        std::from_chars(number.data(), number.data() + number.size(), stream.every);
+    if (error != std::errc() || end != number.data() + number.size() || stream.every == 0) {
+      return std::nullopt;
+    }
+  }
+  for (std::size_t i = 0; i < names_given; ++i) {
+    const auto* const name = std::find(names.begin(), names.end(), words[i]);
+    if (name == names.end()) {
+      return std::nullopt;
+    }
+    stream.channels |= static_cast<std::uint8_t>(1U << (name - names.begin()));
+  }
+  return stream.channels == 0 ? std::nullopt : std::optional(stream);
+}
+
+std::string channel_names() {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string text_of_code(std::uint32_t code) {
+  return fmt::format("{}", static_cast<std::int32_t>(code) * 0x1p-31);
+}
+
+std::string text_of_codes(std::uint32_t codes) {
+  return fmt::format("{},{},{},{}", control::name(static_cast<control::State>(codes & 0xFF)),
+                     control::name(static_cast<control::Limit>(codes >> 8 & 0xFF)),
+                     app::fault_name(static_cast<std::uint8_t>(codes >> 16)),
+                     control::name(static_cast<control::Settling>(codes >> 24)));
+}
+
+std::string StreamTable::begin(const link::Stream& stream) {
+  *this = {};
+  std::string columns = "number,period";
+  for (std::size_t i = 0; i < link::channel_count; ++i) {
+    if ((stream.channels >> i & 1U) != 0) {
+      columns += "," + column_of(i);
+    }
+  }
+  return columns;
+}
+
+std::string StreamTable::row(const link::Streamed& sample) {
+  lost_ += static_cast<std::uint16_t>(sample.number - next_);
+  next_ = static_cast<std::uint16_t>(sample.number + 1);
+  std::string row = fmt::format("{},{}", sample.number, sample.period);
+  for (std::size_t i = 0; i < link::channel_count; ++i) {
+    if (sample.has(i)) {
+      row += "," + text_of(i, sample.values.at(i));
+    }
+  }
+  return row;
+}
+
+}  // namespace sonoglide::unit
