@@ -2,12 +2,15 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/app/host_ramp.hpp"
 #include "firmware/app/order_slot.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/supervisor.hpp"
+#include "firmware/app/trace.hpp"
 #include "hal/board.hpp"
 
 namespace sonoglide::app {
@@ -39,9 +42,11 @@ struct Snapshot {
 /// the drive ramps down. If the service does not come round for its time while the unit drives, the
 /// fault is service_stalled: nobody could stop the drive any more.
 ///
-/// @tparam Designed  see Controller::settle_at
-/// @tparam Atomic    std::atomic, or what a test puts in its place
-template <class ControllerT, class Designed, template <class> class Atomic = std::atomic>
+/// @tparam Designed      see Controller::settle_at
+/// @tparam Atomic        std::atomic, or what a test puts in its place
+/// @tparam TraceRecords  of its trace; 0: it has none
+template <class ControllerT, class Designed, template <class> class Atomic = std::atomic,
+          std::size_t TraceRecords = 0>
 class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   using Base = Supervisor<ControllerT, HostRamp>;
 
@@ -50,6 +55,8 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   using Sample = typename Base::Sample;
   using Drive = typename Base::Drive;
   using Parameters = typename ControllerT::Parameters;
+  using Recorder = std::conditional_t < TraceRecords == 0, NoTrace,
+        Trace<TraceRecords<2 ? 2 : TraceRecords, Drive, Atomic>>;
 
   enum class Kind : std::uint8_t { restart, target, parameters };
 
@@ -107,7 +114,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   /// The service came round of late.
   bool serviced() const { return stalled_periods_ < service_periods_; }
 
-  /// Shows the period to the service; after step() and trip().
+  /// Shows the period to the service, and records it if that is asked for; after step() and trip().
   void publish() {
     const hal::Drive& drive = Base::drive();
     shown_.begin();
@@ -118,6 +125,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     shown_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
     shown_.write(5, codes_of(drive));
     shown_.end();
+    trace_.record(*this);
   }
 
   // ---- The service's ----
@@ -171,6 +179,9 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   /// The host gave a sign of life.
   void hear_host() { heard_.store(++heard_by_service_, std::memory_order_release); }
 
+  /// What is recorded.
+  Recorder& trace() { return trace_; }
+
   /// The service comes round.
   void note_service() { rounds_.store(++rounds_of_service_, std::memory_order_release); }
 
@@ -188,12 +199,15 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         break;
       case Kind::target:
         Base::set_target(order.target);
+        trace_.take_target();
+        trace_.note_target(Base::periods());
         break;
       case Kind::parameters:
         timeout_periods_ = order.timeout_periods;
         Base::replace(order.controller);
         Base::settle_at(designed_);
         Base::set_target(order.target);
+        trace_.take_target();
         break;
     }
     const bool steps = order.kind == Kind::target;
@@ -241,6 +255,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   Atomic<std::uint32_t> rounds_{0};
   OrderSlot<Order, Atomic> orders_;
   SequenceLock<6, Atomic> shown_;
+  [[no_unique_address]] Recorder trace_;
 };
 
 }  // namespace sonoglide::app

@@ -65,12 +65,6 @@ hal::BiasedDrive drive_of(const control::BiasedCommand<Scalar>& command) {
           numeric::to_code(command.bias)};
 }
 
-/// State, limit, fault and settling, from the lowest byte on.
-constexpr std::uint32_t codes_of(const hal::Drive& drive) {
-  return drive.state | std::uint32_t{drive.limit} << 8 | std::uint32_t{drive.fault} << 16 |
-         std::uint32_t{drive.settling} << 24;
-}
-
 namespace detail {
 
 template <class Measurement>

@@ -31,13 +31,17 @@ enum class Answer : std::uint8_t {
 /// interrupt every call. What a request asks of the controller is an order; the next one may be given
 /// when it has ended.
 ///
-/// @tparam Word  std::atomic; InterruptedWord where the control side is an interrupt of the only processor
-template <class PartsT, class Flash, template <class> class Word = std::atomic>
+/// @tparam Word          std::atomic; InterruptedWord where the control side is an interrupt of the only
+///                       processor
+/// @tparam TraceRecords  steps that its trace keeps, 2 ... 65535; 0: it has no trace. A record takes 20 bytes,
+///                       of a controller with a frequency or a bias 24
+template <class PartsT, class Flash, template <class> class Word = std::atomic,
+          std::size_t TraceRecords = 0>
 class Unit {
  public:
   using Design = FieldDesign<PartsT>;
-  using Supervisor =
-      CommandedSupervisor<typename Design::Controller, typename Design::Designed, Word>;
+  using Supervisor = CommandedSupervisor<typename Design::Controller, typename Design::Designed,
+                                         Word, TraceRecords>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none.
   /// @param design  outlives the unit.
@@ -51,6 +55,8 @@ class Unit {
         supervisor_(design.controller_parameters(values_), design.designed(),
                     design.timeout_periods(values_), design.service_periods()) {
     supervisor_.set_target(design_.target(target_));
+    supervisor_.trace().expect_target(target_);
+    supervisor_.trace().take_target();
     begin();
   }
 
@@ -96,6 +102,7 @@ class Unit {
       return Answer::out_of_range;
     }
     ordered_target_ = target;
+    supervisor_.trace().expect_target(target);
     supervisor_.order_target(design_.target(target), faults);
     return Answer::taken;
   }
@@ -229,6 +236,7 @@ class Unit {
   }
 
   [[gnu::cold, gnu::noinline]] void order_parameters() {
+    supervisor_.trace().expect_target(target_);
     supervisor_.order_parameters(design_.controller_parameters(values_), design_.target(target_),
                                  design_.timeout_periods(values_));
   }

@@ -76,6 +76,9 @@ class UnitRequests {
   }
 
  private:
+  static constexpr auto trace_records =
+      static_cast<std::uint16_t>(UnitT::Supervisor::Recorder::records);
+
   [[gnu::cold]] void dispatch(const link::Frame& request) {
     if (request.kind == link::Stop::kind) {
       refuse(request.kind,
@@ -87,9 +90,18 @@ class UnitRequests {
                        handles<link::WriteParameter>(request) || handles<link::Restart>(request) ||
                        handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
                        handles<link::Hello>(request) || handles<link::ReadIdentity>(request) ||
-                       handles<link::Stream>(request);
+                       handles<link::Stream>(request) || handles_trace(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
+    }
+  }
+
+  bool handles_trace([[maybe_unused]] const link::Frame& request) {
+    if constexpr (trace_records > 0) {
+      return handles<link::ArmTrace>(request) || handles<link::ReadTraceState>(request) ||
+             handles<link::ReadTraceRecord>(request);
+    } else {
+      return false;
     }
   }
 
@@ -246,6 +258,38 @@ class UnitRequests {
       answer(link::LoggedFault{request.age, entry.fault, entry.period, count});
     } else {
       refuse(request.kind, link::Reason::no_such_fault, 0, static_cast<std::uint32_t>(log.kept()));
+    }
+  }
+
+  void carry_out(const link::ArmTrace& request) {
+    if (request.triggers == 0 || request.triggers > link::all_triggers) {
+      refuse(request.kind, link::Reason::out_of_range, 1, link::all_triggers);
+    } else if (request.before >= trace_records) {
+      refuse(request.kind, link::Reason::out_of_range, 0, trace_records - 1);
+    } else {
+      unit_.supervisor().trace().arm(request.triggers, request.before);
+      link::TraceArmed armed{};
+      armed.triggers = request.triggers;
+      armed.before = request.before;
+      answer(armed);
+    }
+  }
+
+  void carry_out(const link::ReadTraceState& /*request*/) {
+    const auto& trace = unit_.supervisor().trace();
+    const auto state = trace.state();
+    answer(link::TraceState{static_cast<std::uint8_t>(state.phase),
+                            static_cast<std::uint8_t>(trace.extra), trace_records, state.cause,
+                            state.before, state.first_period});
+  }
+
+  void carry_out(const link::ReadTraceRecord& request) {
+    const auto& trace = unit_.supervisor().trace();
+    const std::uint32_t there = trace.state().phase == link::TracePhase::whole ? trace_records : 0;
+    if (request.index < there) {
+      answer(trace.read(request.index));
+    } else {
+      refuse(request.kind, link::Reason::no_such_record, 0, there);
     }
   }
 

@@ -13,6 +13,7 @@
 #include "firmware/app/unit.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
 #include "firmware/image/carrier/frequency_step.hpp"
+#include "hal/trace_records.hpp"
 
 namespace {
 
@@ -36,7 +37,8 @@ struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
 };
 
-using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;
+using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
+                       sonoglide::hal::trace_records<Hardware>>;
 using Service = app::LinkService<Unit, Hardware::ByteLink, 32, Product>;
 using Loop = app::TimedLoop<Unit::Supervisor, Hardware::Board, Hardware::Watchdog, Service>;
 

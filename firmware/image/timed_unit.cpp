@@ -15,6 +15,7 @@
 #include "firmware/app/unit.hpp"
 #include "hal/serial_line.hpp"
 #include "hal/timed/board.hpp"
+#include "hal/trace_records.hpp"
 
 namespace {
 
@@ -46,7 +47,8 @@ struct Product : app::Unnamed {
 };
 
 /// Its processor is the only one.
-using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord>;
+using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
+                       sonoglide::hal::trace_records<Hardware>>;
 
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;

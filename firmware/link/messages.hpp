@@ -11,6 +11,7 @@
 
 #include "firmware/link/payload.hpp"
 #include "firmware/link/stream_messages.hpp"
+#include "firmware/link/trace_messages.hpp"
 
 namespace sonoglide::link {
 
@@ -254,7 +255,8 @@ struct Identity {
 /// Asks for what may have changed since, and changes nothing: to be answered anew each time.
 constexpr bool is_reading(std::uint8_t kind) {
   return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind ||
-         kind == ReadIdentity::kind;
+         kind == ReadIdentity::kind || kind == ReadTraceState::kind ||
+         kind == ReadTraceRecord::kind;
 }
 
 enum class Reason : std::uint8_t {
@@ -268,6 +270,7 @@ enum class Reason : std::uint8_t {
   out_of_turn,  ///< an older frame than the last, whose sequence number is in lowest and highest
   parameters_not_confirmed,  ///< confirm them, or write one
   overtaken_by_fault,        ///< a fault came after the first byte of the request
+  no_such_record,            ///< that many are there: highest; none before a trace is whole
 };
 
 /// Why a request was not carried out, with what would have been allowed.

@@ -1,6 +1,7 @@
 /// The MPS2 boards: their devices, and the boards that images are made for from them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "hal/cortex_m/sys_tick.hpp"
@@ -129,6 +130,7 @@ class Watchdog {
 
 template <std::uint32_t ClockHz, class ResetCause>
 struct TimedHardware {
+  static constexpr std::size_t trace_records = 1024;
   /// 25 MHz leave 416 clocks for each carrier period, 20 MHz 333.
   static constexpr unsigned least_periods = 16;
   using ByteLink = Uart<ClockHz>;

@@ -63,6 +63,7 @@ class Flash {
 /// The erase of a flash sector takes longer than SysTick takes to wrap, so that periods go
 /// uncounted. This happens only while parameters are saved, with the drive at zero.
 struct TimedHardware {
+  static constexpr std::size_t trace_records = 1024;
   /// The internal oscillator's 16 MHz leave 266 clocks for each carrier period.
   static constexpr unsigned least_periods = 16;
   using ByteLink = Uart;

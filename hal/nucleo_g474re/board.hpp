@@ -263,6 +263,7 @@ class Flash {
 
 /// What a unit finds on a Nucleo-G474RE.
 struct Hardware {
+  static constexpr std::size_t trace_records = 1024;
   using Board = nucleo_g474re::Board;
   using ByteLink = Uart;
   using Watchdog = nucleo_g474re::Watchdog;

@@ -169,6 +169,8 @@ class Flash {
 
 /// What a unit finds on a Pico.
 struct Hardware {
+  /// Where a carrier period leaves time for it.
+  static constexpr std::size_t trace_records = fast ? 1024 : 0;
   using Board = pico::Board;
   using ByteLink = Uart;
   using Watchdog = pico::Watchdog;

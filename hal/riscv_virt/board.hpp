@@ -1,6 +1,7 @@
 /// QEMU's RISC-V virt: its devices, and the boards that images are made for from them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "hal/lockstep/board/lockstep_board.hpp"
@@ -40,6 +41,7 @@ class MachineTimer {
 // What a unit that keeps its own time finds on QEMU's RISC-V virt.
 
 struct TimedHardware {
+  static constexpr std::size_t trace_records = 1024;
   static constexpr unsigned least_periods = 16;
   using ByteLink = Uart;
   using Board = timed::Board<MachineTimer>;

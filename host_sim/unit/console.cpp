@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -13,6 +15,7 @@
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/unit/unit_trace.hpp"
 
 namespace sonoglide::unit {
 namespace {
@@ -21,7 +24,8 @@ using app::parameter_labels;
 
 constexpr const char* help_text =
     "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE, "
-    "stream CHANNEL ... [every N], stream off";
+    "stream CHANNEL ... [every N], stream off, "
+    "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE";
 
 std::string decimal(std::uint32_t value, int places) {
   std::array<char, encoding::most_decimal_characters> text{};
@@ -111,6 +115,7 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter) {
       return "see params, then confirm them or set one";
     case link::Reason::overtaken_by_fault:
       return "not done: a fault came first";
+    case link::Reason::no_such_record:
     case link::Reason::unknown_request:
     case link::Reason::wrong_length:
     case link::Reason::no_such_fault:
@@ -129,6 +134,9 @@ std::vector<std::string> Console::carry_out(const std::string& line) {
   const std::string command = words.empty() ? "" : words[0];
   if (command == "stream") {
     return stream({words.begin() + 1, words.end()});
+  }
+  if (command == "trace") {
+    return trace({words.begin() + 1, words.end()});
   }
   switch (words.size()) {
     case 0:
@@ -317,6 +325,46 @@ Console::Lines Console::stream(const std::vector<std::string>& words) {
     lines.push_back(table_.begin(*wanted));
   }
   return lines;
+}
+
+Console::Lines Console::trace(const std::vector<std::string>& words) {
+  const auto told = unit_.ask<link::TraceState>(link::ReadTraceState{});
+  const auto* const state = std::get_if<link::TraceState>(&told);
+  if (state == nullptr) {
+    return refuse("the unit has no trace");
+  }
+  if (words.empty()) {
+    return {text_of(*state)};
+  }
+  if (words.size() == 2 && words[0] == "save") {
+    return save_trace(*state, words[1]);
+  }
+  const auto wanted = trace_of(words, static_cast<std::uint16_t>(state->records / 2));
+  if (!wanted || wanted->before >= state->records) {
+    return refuse(
+        fmt::format("trace, trace now, trace on fault|target [STEPS_BEFORE], or trace save FILE; "
+                    "STEPS_BEFORE: 0 to {}",
+                    state->records - 1));
+  }
+  unit_.ask<link::TraceArmed>(*wanted);
+  return {"trace waiting"};
+}
+
+Console::Lines Console::save_trace(const link::TraceState& state, const std::string& file) {
+  if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
+    return refuse(text_of(state) + ": nothing to save");
+  }
+  if (std::filesystem::exists(file)) {
+    return refuse(process::printable(file) + ": is there already");
+  }
+  const std::string table = read_trace(unit_, state);
+  std::ofstream stream(file);
+  stream << table;
+  stream.close();
+  if (!stream) {
+    return refuse(process::printable(file) + ": cannot be written");
+  }
+  return {fmt::format("{} steps saved", state.records)};
 }
 
 link::Telemetry Console::telemetry() {

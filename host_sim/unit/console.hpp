@@ -65,6 +65,8 @@ class Console {
   Lines set_parameter(const std::string& name, const std::string& text);
 
   Lines stream(const std::vector<std::string>& words);
+  Lines trace(const std::vector<std::string>& words);
+  Lines save_trace(const link::TraceState& state, const std::string& file);
 
   link::Telemetry telemetry();
   Lines refuse(const std::string& reason);

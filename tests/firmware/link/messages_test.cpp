@@ -70,6 +70,25 @@ Streaming streaming() {
   return message;
 }
 
+TraceArmed trace_armed() {
+  TraceArmed message{};
+  message.triggers = 2;
+  message.before = 512;
+  return message;
+}
+
+TraceRecord trace_record() {
+  TraceRecord message{};
+  message.index = 1023;
+  message.friction_force = -2;
+  message.sliding_velocity = 0x11121314;
+  message.amplitude = 0x21222324;
+  message.target = 400000;
+  message.codes = 0x04220503;
+  message.other = -5;
+  return message;
+}
+
 template <class Message>
 Message of_target() {
   Message message{};
@@ -137,6 +156,14 @@ TEST(MessageBytes, AreThoseOfTheReference) {
        "001302c002012504030201feffffff24232221030710018e64c54600"},
       {frame_of(Streamed{0xFFFF, 0x3F, 600, {1, 2, 3, 4, 400000, 6}}),
        "000802c0ffff3f5802010201010102020101020301010204010104801a060206010105fd49c0b200"},
+      {frame_of(ArmTrace{2, 512}, 12), "0004020c0c020206026f564b5500"},
+      {frame_of(trace_armed(), 12), "0004028c0c02020602b742fb4b00"},
+      {frame_of(ReadTraceState{}, 13), "0004020d0d0589fa3b3600"},
+      {frame_of(TraceState{3, 1, 1024, 2, 512, 0x01020304}, 13),
+       "0004028d0d0303010304020a02040302012777d0db00"},
+      {frame_of(ReadTraceRecord{1023}, 14), "0004020e0e07ff033265c8a900"},
+      {frame_of(trace_record(), 14),
+       "0004028e0e12ff03feffffff1413121124232221801a060d03052204fbffffffcd496cda00"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {
@@ -174,10 +201,10 @@ TEST(StreamedFrame, IsReadAsItWasMadeForEverySetOfChannels) {
 
 TEST(MessageBytes, ReasonsHaveTheNumbersOfTheReference) {
   const Reason reasons[] = {
-      Reason::unknown_request,    Reason::wrong_length,  Reason::out_of_range,
-      Reason::unknown_parameter,  Reason::no_such_fault, Reason::drive_not_stopped,
-      Reason::not_saved,          Reason::out_of_turn,   Reason::parameters_not_confirmed,
-      Reason::overtaken_by_fault,
+      Reason::unknown_request,    Reason::wrong_length,   Reason::out_of_range,
+      Reason::unknown_parameter,  Reason::no_such_fault,  Reason::drive_not_stopped,
+      Reason::not_saved,          Reason::out_of_turn,    Reason::parameters_not_confirmed,
+      Reason::overtaken_by_fault, Reason::no_such_record,
   };
   int number = 0;
   for (const Reason reason : reasons) {

@@ -10,7 +10,10 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <regex>
 #include <stdexcept>
@@ -23,6 +26,7 @@
 #include "firmware/app/timed_loop.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "tests/common/csv/csv.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 #include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
 
@@ -66,6 +70,8 @@ class Device {
   std::thread thread_;
 };
 
+constexpr std::size_t steps_kept = 200;
+
 /// A unit that is served as fast as the machine can, and so has no time of its own.
 class ServedUnit {
  public:
@@ -76,15 +82,16 @@ class ServedUnit {
  private:
   static constexpr app::FieldDesign<app::Parts> design_{app::designed, 0.2F, 1,
                                                         app::carrier_period_s, 0};
+  using Unit = app::Unit<app::Parts, app::SimulatedFlash, std::atomic, steps_kept>;
   app::SimulatedFlash flash_;
-  app::TestedUnit unit_{design_, flash_};
+  Unit unit_{design_, flash_};
   app::TimedBoard board_;
   app::CountingWatchdog watchdog_;
   TerminalLink link_;
-  using Service = app::LinkService<app::TestedUnit, TerminalLink, 32, app::TestedProduct>;
+  using Service = app::LinkService<Unit, TerminalLink, 32, app::TestedProduct>;
   Service service_{unit_, link_};
-  app::TimedLoop<app::TestedUnit::Supervisor, app::TimedBoard, app::CountingWatchdog, Service>
-      loop_{unit_.supervisor(), board_, watchdog_, service_};
+  app::TimedLoop<Unit::Supervisor, app::TimedBoard, app::CountingWatchdog, Service> loop_{
+      unit_.supervisor(), board_, watchdog_, service_};
   Device served_{[this] {
     loop_.serve();
     board_.in_force.clear();
@@ -157,6 +164,81 @@ TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
   }
 }
 
+class TraceConsole : public ConsoleTest {
+ protected:
+  ~TraceConsole() override { std::filesystem::remove(file_); }
+
+  /// Waits until the trace is whole, and saves it.
+  csv::Table saved_trace() {
+    std::string state = line_of("trace");
+    for (int i = 0; i < 1000 && state.find("trace of") != 0; ++i) {
+      state = line_of("trace");
+    }
+    std::smatch found;
+    const std::regex pattern(
+        "trace of 200 steps from period ([0-9]+), triggered by ([a-z]+) in period ([0-9]+)");
+    EXPECT_TRUE(std::regex_match(state, found, pattern)) << state;
+    first_ = std::stoul(found[1]);
+    cause_ = found[2];
+    trigger_ = std::stoul(found[3]) - first_;
+    EXPECT_EQ(line_of("trace save " + file_), "200 steps saved");
+    std::ifstream stream(file_);
+    return csv::Table({std::istreambuf_iterator<char>(stream), {}}, file_);
+  }
+
+  std::string file_ = testing::TempDir() + "sonoglide_trace_" + std::to_string(getpid()) + ".csv";
+  std::size_t first_ = 0;
+  std::string cause_;
+  std::size_t trigger_ = 0;
+};
+
+TEST_F(TraceConsole, SavesTheStepsAroundANewTarget) {
+  EXPECT_EQ(line_of("trace"), "no trace");
+  ask("restart");
+  EXPECT_EQ(line_of("trace on target 30"), "trace waiting");
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(line_of("trace"), "trace waiting");
+  }
+  ask("target 0.7");
+  const csv::Table table = saved_trace();
+  EXPECT_EQ(cause_, "target");
+  EXPECT_EQ(trigger_, 30U);
+  EXPECT_EQ(table.columns(),
+            (csv::Cells{"period", "friction_force", "sliding_velocity", "amplitude", "target",
+                        "state", "limit", "fault", "settling"}));
+  ASSERT_EQ(table.rows().size(), steps_kept);
+  for (std::size_t i = 0; i < steps_kept; ++i) {
+    const csv::Row& row = table.rows()[i];
+    EXPECT_EQ(row.number("period"), static_cast<double>(first_ + i));
+    EXPECT_EQ(row.text("target"), i < 30 ? "0.4" : "0.7");
+    EXPECT_EQ(row.text("fault"), "none");
+    EXPECT_NEAR(row.number("sliding_velocity"), app::TimedBoard::speed, 1e-9);
+  }
+  const csv::Row& last = table.rows().back();
+  EXPECT_NEAR(last.number("friction_force"), 0.7 * app::TimedBoard::friction, 1e-3);
+  EXPECT_EQ(last.text("state"), "running");
+  EXPECT_EQ(line_of("trace save " + file_), file_ + ": is there already");
+  EXPECT_EQ(console_.refused(), 1U);
+}
+
+TEST_F(TraceConsole, SavesWhatComesNowAndNamesWhatThereIs) {
+  EXPECT_EQ(line_of("trace save " + file_), "no trace: nothing to save");
+  EXPECT_EQ(line_of("trace now"), "trace waiting");
+  EXPECT_EQ(saved_trace().rows().front().text("state"), "off");
+  EXPECT_EQ(cause_, "now");
+  EXPECT_EQ(trigger_, 0U);
+  EXPECT_EQ(line_of("trace save /nowhere/trace.csv"), "/nowhere/trace.csv: cannot be written");
+  EXPECT_EQ(line_of("trace on fault target 199"), "trace waiting");
+  for (const char* wrong :
+       {"trace on", "trace on fault 200", "trace on 5", "trace soon", "trace now 5",
+        "trace on fault 5 target", "trace save", "trace on target -1"}) {
+    EXPECT_EQ(line_of(wrong),
+              "trace, trace now, trace on fault|target [STEPS_BEFORE], or trace save FILE; "
+              "STEPS_BEFORE: 0 to 199")
+        << wrong;
+  }
+}
+
 TEST(StreamTableTest, CountsWhatIsLeftOutAndShowsCodesExactly) {
   StreamTable table;
   EXPECT_EQ(table.begin({0x1B, 1}),
@@ -191,7 +273,8 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
       "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
-      "set NAME VALUE, stream CHANNEL ... [every N], stream off";
+      "set NAME VALUE, stream CHANNEL ... [every N], stream off, trace, trace now, "
+      "trace on fault|target [STEPS_BEFORE], trace save FILE";
   EXPECT_EQ(line_of("help"), commands);
   for (const char* unknown : {"go", "target", "stop now", "set a", "set a 1 2"}) {
     EXPECT_EQ(line_of(unknown), "unknown; there are: " + commands) << unknown;

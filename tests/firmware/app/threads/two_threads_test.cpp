@@ -16,7 +16,9 @@ namespace sonoglide::app::two_threads_test {
 namespace {
 
 using Design = FieldDesign<Parts>;
-using Supervised = CommandedSupervisor<Design::Controller, Design::Designed>;
+constexpr std::uint16_t steps_kept = 64;
+using Supervised =
+    CommandedSupervisor<Design::Controller, Design::Designed, std::atomic, steps_kept>;
 
 constexpr std::uint32_t periods = 200'000;
 
@@ -73,6 +75,23 @@ struct Service {
   int torn = 0;
   bool pending = false;
   std::uint32_t seen = 0;
+  int traces = 0;
+
+  /// Reads a trace that is whole, and arms it anew; now and then one that is not whole.
+  void trace() {
+    auto& trace = supervisor.trace();
+    const auto state = trace.state();
+    const bool whole = state.phase == link::TracePhase::whole;
+    for (std::uint16_t i = 0; whole && i < steps_kept; ++i) {
+      const auto velocity = static_cast<std::uint32_t>(trace.read(i).sliding_velocity);
+      torn += (velocity & 0xffU) != ((state.first_period + i) & 0xffU) ? 1 : 0;
+    }
+    traces += whole ? 1 : 0;
+    if (whole || state.phase == link::TracePhase::empty || random() % 64 == 0) {
+      trace.arm(static_cast<std::uint8_t>(1 + random() % link::all_triggers),
+                static_cast<std::uint16_t>(random() % steps_kept));
+    }
+  }
 
   /// @return whether a carrier period has passed since the last look
   bool look() {
@@ -104,6 +123,7 @@ struct Service {
     if (!passed) {
       return;
     }
+    trace();
     const auto chance = random() % 16;
     if (chance == 0) {
       supervisor.order_stop();
@@ -115,6 +135,7 @@ struct Service {
     if (chance < 11) {
       supervisor.order_restart(faults);
     } else if (chance < 14) {
+      supervisor.trace().expect_target(static_cast<std::uint32_t>(given));
       supervisor.order_target(0.01F * static_cast<float>(5 + random() % 45), faults);
     } else if (!supervisor.snapshot().driving()) {
       ParameterValues values = field_design.presets();
@@ -174,6 +195,7 @@ TEST_P(TwoThreads, NeverTearWhatPassesBetweenThemAndAReplayIsTheSame) {
   over = true;
   thread.join();
   EXPECT_EQ(service.torn, 0);
+  EXPECT_GT(service.traces, 10);
   EXPECT_GT(service.given, 100);
   EXPECT_LE(service.given - service.ended, 1);
   EXPECT_GT(control.driven(), 1000U);
@@ -181,6 +203,7 @@ TEST_P(TwoThreads, NeverTearWhatPassesBetweenThemAndAReplayIsTheSame) {
   EXPECT_EQ(replayed(events), control.hash());
   RecordProperty("orders", service.given);
   RecordProperty("overtaken", service.overtaken);
+  RecordProperty("traces", service.traces);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, TwoThreads, testing::Range(1U, 3U));

@@ -1,0 +1,124 @@
+#include "host_sim/unit/unit_trace.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <system_error>
+
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/unit/stream_table.hpp"
+
+namespace sonoglide::unit {
+namespace {
+
+constexpr auto bit(link::Trigger trigger) {
+  return static_cast<std::uint8_t>(trigger);
+}
+
+std::string names_of(std::uint8_t triggers) {
+  std::vector<const char*> words;
+  if ((triggers & bit(link::Trigger::now)) != 0) {
+    words.push_back("now");
+  }
+  if ((triggers & bit(link::Trigger::fault)) != 0) {
+    words.push_back("fault");
+  }
+  if ((triggers & bit(link::Trigger::target)) != 0) {
+    words.push_back("target");
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::optional<std::uint16_t> count_of(const std::string& word) {
+  std::uint16_t count = 0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, count);
+  return error == std::errc() && rest == end ? std::optional(count) : std::nullopt;
+}
+
+std::string row_of(std::uint32_t period, const link::TraceRecord& record, link::TraceExtra extra) {
+  std::string row = fmt::format("{},{},{},{},{},{}", period,
+                                text_of_code(static_cast<std::uint32_t>(record.friction_force)),
+                                text_of_code(static_cast<std::uint32_t>(record.sliding_velocity)),
+                                text_of_code(static_cast<std::uint32_t>(record.amplitude)),
+                                record.target / 1e6, text_of_codes(record.codes));
+  if (extra == link::TraceExtra::bias) {
+    row += "," + text_of_code(static_cast<std::uint32_t>(record.other));
+  } else if (extra == link::TraceExtra::frequency) {
+    row += fmt::format(",{}", record.other);
+  }
+  return row;
+}
+
+const char* column_of(link::TraceExtra extra) {
+  switch (extra) {
+    case link::TraceExtra::bias:
+      return ",bias";
+    case link::TraceExtra::frequency:
+      return ",frequency_steps";
+    case link::TraceExtra::none:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<link::ArmTrace> trace_of(const std::vector<std::string>& words,
+                                       std::uint16_t usual_before) {
+  link::ArmTrace trace{0, usual_before};
+  if (words == std::vector<std::string>{"now"}) {
+    trace.triggers = bit(link::Trigger::now);
+    return trace;
+  }
+  if (words.empty() || words[0] != "on") {
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i] == "fault") {
+      trace.triggers |= bit(link::Trigger::fault);
+    } else if (words[i] == "target") {
+      trace.triggers |= bit(link::Trigger::target);
+    } else if (const auto before = count_of(words[i]); before && i + 1 == words.size()) {
+      trace.before = *before;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return trace.triggers == 0 ? std::nullopt : std::optional(trace);
+}
+
+std::string text_of(const link::TraceState& state) {
+  switch (static_cast<link::TracePhase>(state.phase)) {
+    case link::TracePhase::waiting:
+      return "trace waiting";
+    case link::TracePhase::recording:
+      return "trace recording, triggered by " + names_of(state.cause);
+    case link::TracePhase::whole:
+      return fmt::format("trace of {} steps from period {}, triggered by {} in period {}",
+                         state.records, state.first_period, names_of(state.cause),
+                         state.first_period + state.before);
+    case link::TracePhase::empty:
+      break;
+  }
+  return "no trace";
+}
+
+std::string read_trace(UnitLink& unit, const link::TraceState& state) {
+  const auto extra = static_cast<link::TraceExtra>(state.extra);
+  std::string table = fmt::format(
+      "period,friction_force,sliding_velocity,amplitude,target,state,limit,fault,settling{}\n",
+      column_of(extra));
+  for (std::uint16_t i = 0; i < state.records; ++i) {
+    const auto result = unit.ask<link::TraceRecord>(link::ReadTraceRecord{i});
+    const auto* const record = std::get_if<link::TraceRecord>(&result);
+    if (record == nullptr) {
+      throw process::ProcessError("another host armed the trace");
+    }
+    table += row_of(state.first_period + i, *record, extra) + "\n";
+  }
+  return table;
+}
+
+}  // namespace sonoglide::unit

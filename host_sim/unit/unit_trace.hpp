@@ -1,0 +1,30 @@
+/// The trace of a unit: how it is asked for, and its table.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/link/trace_messages.hpp"
+#include "host_sim/unit/unit_link.hpp"
+
+namespace sonoglide::unit {
+
+/// The trace that a line of words asks for: `now`, or `on`, then `fault`, `target` or both, then how many
+/// steps before it are to be kept.
+/// @param usual_before  where the words do not say
+/// @return nothing where they are none of these
+std::optional<link::ArmTrace> trace_of(const std::vector<std::string>& words,
+                                       std::uint16_t usual_before);
+
+/// Where it stands, in words.
+std::string text_of(const link::TraceState& state);
+
+/// A whole trace as CSV: a row for each step, oldest first, with the names of the columns above them. Force,
+/// velocity, amplitude and bias are parts of their full scales, exactly.
+/// @param state  of the unit, whole
+/// @throws process::ProcessError  the unit does not answer, or armed it anew
+std::string read_trace(UnitLink& unit, const link::TraceState& state);
+
+}  // namespace sonoglide::unit
