@@ -14,6 +14,7 @@
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/unit/unit_trace.hpp"
 
@@ -368,7 +369,11 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
 }
 
 link::Telemetry Console::telemetry() {
-  return std::get<link::Telemetry>(unit_.ask<link::Telemetry>(link::ReadTelemetry{}));
+  const auto result = unit_.ask<link::Telemetry>(link::ReadTelemetry{});
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    throw process::ProcessError("the unit does not tell its state: " + words_of(*refusal, 0));
+  }
+  return std::get<link::Telemetry>(result);
 }
 
 Console::Lines Console::refuse(const std::string& reason) {

@@ -31,7 +31,7 @@ const contact = new StandInContact();
 const noise = () => random(41) - 20;
 let oneConversion = null; // in the place of the next one of the force
 pico.input = (period, channel, turn) => {
-  const code = contact.code(channel) + noise();
+  const code = contact.code(channel) + (channel === 0 ? noise() : 0);
   const shown = channel === 0 && turn === 2 && oneConversion !== null ? oneConversion : code;
   oneConversion = shown === code ? oneConversion : null;
   return shown;

@@ -715,6 +715,27 @@ TEST(LinkServiceTest, EveryFaultCancelsWhatWasSentBeforeIt) {
   }
 }
 
+// A fault between the first byte of a question and its last one cancels orders alone.
+TEST(LinkServiceTest, WhatIsReadIsAnsweredWhateverFaultCame) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  powered.ask<link::Restarted>(link::Restart{});
+  powered.put(link::frame_of(link::ReadTelemetry{}, ++powered.sequence));
+  auto& wire = powered.wire.to_unit;
+  constexpr int first_bytes = 4;
+  const std::vector<std::uint8_t> rest(wire.begin() + first_bytes, wire.end());
+  wire.erase(wire.begin() + first_bytes, wire.end());
+  powered.serve(1);
+  powered.board.fresh = false;
+  powered.serve(1);
+  powered.board.fresh = true;
+  wire.insert(wire.end(), rest.begin(), rest.end());
+  const std::vector<link::Frame> frames = powered.answers();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].kind, link::Telemetry::kind);
+  EXPECT_EQ(powered.unit.supervisor().faults().count(), 1U);
+}
+
 RC_GTEST_PROP(LinkServiceTest, AStopActsBehindAnyBytes, ()) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
