@@ -12,6 +12,7 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
+#include "host_sim/emulated/board_limits.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/run_image.hpp"

@@ -1,13 +1,35 @@
+#include "host_sim/emulated/board_limits.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/emulated/controller_header.hpp"
 
 namespace sonoglide::emulated {
 
-void require_carrier_board(const scene::Scene& scene, const emulated::EmulatedBoard& board) {
+void require_arithmetic(const scene::Scene& scene, const ImageBoard& board) {
+  const bool wanted =
+      scene.controller && scene.controller->arithmetic == scene::Arithmetic::float64;
+  if (!wanted || board.computes_double) {
+    return;
+  }
+  std::string capable;
+  for (const EmulatedBoard& each : emulated_boards()) {
+    if (each.computes_double) {
+      capable += fmt::format("{}{}", capable.empty() ? "" : ", ", each.name);
+    }
+  }
+  throw configure::ConfigurationError(
+      "controller.arithmetic",
+      fmt::format(
+          "float64 has no hardware on {} ({}); allowed: \"float32\", \"q31\", \"q15\", or a "
+          "board that has it: {}",
+          board.name, board.core, capable));
+}
+
+void require_carrier_board(const scene::Scene& scene, const EmulatedBoard& board) {
   const auto& boards = carrier_boards();
   if (!scene.controller || std::none_of(boards.begin(), boards.end(), [&](const auto& each) {
         return each.name == board.name;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,32 +16,10 @@
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/emulated/initialiser.hpp"
-#include "host_sim/loop/control_run.hpp"
-#include "host_sim/loop/plant/carrier_grid.hpp"
+#include "host_sim/emulated/target_text.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::emulated {
-
-void require_arithmetic(const scene::Scene& scene, const ImageBoard& board) {
-  const bool wanted =
-      scene.controller && scene.controller->arithmetic == scene::Arithmetic::float64;
-  if (!wanted || board.computes_double) {
-    return;
-  }
-  std::string capable;
-  for (const emulated::EmulatedBoard& each : emulated::emulated_boards()) {
-    if (each.computes_double) {
-      capable += fmt::format("{}{}", capable.empty() ? "" : ", ", each.name);
-    }
-  }
-  throw configure::ConfigurationError(
-      "controller.arithmetic",
-      fmt::format(
-          "float64 has no hardware on {} ({}); allowed: \"float32\", \"q31\", \"q15\", or a "
-          "board that has it: {}",
-          board.name, board.core, capable));
-}
 
 namespace {
 
@@ -148,97 +125,6 @@ std::string parameter_lines(const configure::ControlDesign& design,
   const auto parameters = configure::controller_parameters<Parts>(design);
   control::Controller<Parts>::Parameters::fields(parameters, lines);
   return lines.text;
-}
-
-/// @throws configure::ConfigurationError  an image cannot count so far
-void require_reach(const scene::Scene& scene, const loop::ScheduledTarget& step,
-                   double step_period_s) {
-  constexpr std::uint64_t most_steps = 0xffffffff;
-  if (step.place > most_steps) {
-    throw configure::ConfigurationError(
-        fmt::format("controller.{}", scene.controller->target_key()),
-        fmt::format("a step at {:g} s is out of an image's reach; allowed: at most {} s",
-                    step.time_s, scene::at_most(static_cast<double>(most_steps) * step_period_s)));
-  }
-}
-
-template <class Scalar>
-std::string target_steps(const scene::Scene& scene, const configure::ControlDesign& design) {
-  const char* const unit = design.holds_force ? " N" : "";
-  const loop::CarrierGrid grid(scene);
-  std::string text;
-  for (const loop::ScheduledTarget& step : loop::target_schedule(scene, grid)) {
-    if (design.resonance() == nullptr) {
-      require_reach(scene, step, scene.controller->every_periods * grid.period_s());
-    }
-    text += fmt::format("    {{{}, {}}},  // {}{}\n", step.place,
-                        Initialiser<Scalar>::of(configure::target_of<Scalar>(design, step.target)),
-                        step.target, unit);
-  }
-  return text;
-}
-
-/// How an image follows its targets.
-struct TargetText {
-  const char* header;
-  std::string lines;
-  const char* drive;  ///< of which the carrier period is
-};
-
-/// Of a resonant loop; `where` among the numbers above the word of the start is.
-std::string frequency_step(const configure::ResonantDesign* resonance, const char* where) {
-  return resonance == nullptr
-             ? ""
-             : fmt::format(
-                   "\n/// The frequency of a command is this step times the word of the start, which is "
-                   "the {} "
-                   "number\n/// above, and the command's steps together.\n"
-                   "inline constexpr double frequency_step_Hz = {:a};\n",
-                   where, resonance->step_Hz);
-}
-
-template <class Scalar>
-TargetText texture_text(const configure::ControlDesign& design) {
-  const configure::TextureDesign& texture = *design.texture;
-  const configure::ResonantDesign* const resonance = design.resonance();
-  std::string points;
-  for (const double value : texture.values) {
-    points += fmt::format("    {},  // {}{}\n",
-                          Initialiser<Scalar>::of(configure::target_of<Scalar>(design, value)),
-                          value, design.holds_force ? " N" : "");
-  }
-  const std::string steps =
-      resonance == nullptr
-          ? fmt::format("EqualSteps> target_steps = {{\n    {{{}}}", texture.weight)
-          : fmt::format("WordedSteps> target_steps = {{\n    {{{}, {}}}", texture.weight,
-                        resonance->start_word);
-  return {"firmware/app/texture.hpp",
-          fmt::format("inline constexpr Scalar texture_points[] = {{\n{}}};\n"
-                      "inline constexpr TextureTargets<Scalar, {},\n    {{{}, {}U, {}U}},\n"
-                      "    texture_points, {}}};\n{}",
-                      points, steps, texture.period, texture.inverse, texture.lead,
-                      texture.values.size(), frequency_step(resonance, "second")),
-          resonance == nullptr ? "" : " at the start"};
-}
-
-/// In a resonant loop with the word of the start and the step of the frequency.
-template <class Scalar>
-TargetText target_text(const scene::Scene& scene, const configure::ControlDesign& design) {
-  if (design.texture) {
-    return texture_text<Scalar>(design);
-  }
-  const configure::ResonantDesign* const resonance = design.resonance();
-  const std::string steps = target_steps<Scalar>(scene, design);
-  if (resonance == nullptr) {
-    return {"firmware/app/target_schedule.hpp",
-            fmt::format("inline constexpr TargetStep<Scalar> target_steps[] = {{\n{}}};\n", steps),
-            ""};
-  }
-  std::string lines =
-      fmt::format("inline constexpr TimedTargets<Scalar, {}> target_steps = {{{}, {{\n{}}}}};\n{}",
-                  scene.controller->targets().size(), resonance->start_word, steps,
-                  frequency_step(resonance, "first"));
-  return {"firmware/app/timed_targets.hpp", std::move(lines), " at the start"};
 }
 
 std::string includes(const std::vector<ChosenPart>& parts, const char* scalar_header,

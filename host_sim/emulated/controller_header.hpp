@@ -5,18 +5,9 @@
 #include <string>
 
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::emulated {
-
-/// @throws configure::ConfigurationError  a float64 scene on a board that computes that in software
-void require_arithmetic(const scene::Scene& scene, const ImageBoard& board);
-
-/// @throws configure::ConfigurationError  what a board of carrier_boards() has no time for, or cannot show to
-///         its image or do with its answers
-void require_carrier_board(const scene::Scene& scene, const emulated::EmulatedBoard& board);
 
 /// The name under which an image includes it.
 inline constexpr const char* controller_header_name = "controller_configuration.hpp";

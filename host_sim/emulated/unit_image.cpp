@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/emulated/board_limits.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/image.hpp"
 #include "host_sim/process/child_process.hpp"

@@ -1,4 +1,5 @@
 #include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/emulated/board_limits.hpp"
 
 #include <gtest/gtest.h>
 
