@@ -1,5 +1,5 @@
-# What all microcontrollers share. The file that includes this has set the compiler and
-# processor_flags.
+# What all microcontrollers share. The file that includes this has set the compiler, processor_flags, and
+# what the linker needs besides: linker_flags, CMAKE_CXX_STANDARD_LIBRARIES_INIT.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
 # What CMake tries out cannot be linked without a board.
@@ -13,7 +13,18 @@ string(JOIN " " CMAKE_CXX_FLAGS_INIT
   ${processor_flags} -O2 -finline-limit=2000 -fno-schedule-insns -fno-jump-tables -g -ffp-contract=off -fno-exceptions -fno-rtti -fno-threadsafe-statics
   -ffunction-sections -fdata-sections)
 # No start files and no system calls: what needs a heap or an operating system does not link.
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings")
+string(JOIN " " CMAKE_EXE_LINKER_FLAGS_INIT
+  -nostartfiles -Wl,--gc-sections -Wl,--fatal-warnings ${linker_flags})
+
+# CMake keeps the flags with which a build folder was configured first. Where the toolchain files give others
+# now, these take their place among those that somebody has added.
+foreach(flags CMAKE_CXX_FLAGS CMAKE_EXE_LINKER_FLAGS CMAKE_CXX_STANDARD_LIBRARIES)
+  if(DEFINED CACHE{${flags}} AND DEFINED CACHE{SONOGLIDE_${flags}})
+    string(REPLACE "${SONOGLIDE_${flags}}" "${${flags}_INIT}" present "$CACHE{${flags}}")
+    set_property(CACHE ${flags} PROPERTY VALUE "${present}")
+  endif()
+  set(SONOGLIDE_${flags} "${${flags}_INIT}" CACHE INTERNAL "As the toolchain files gave them")
+endforeach()
 
 # The workstation program and GoogleTest are not for a microcontroller.
 set(SONOGLIDE_HOST OFF)

@@ -17,7 +17,6 @@ set(processor_flags
   -march=rv32imac -mabi=ilp32 -misa-spec=2.2 -msmall-data-limit=0
   -isystem "${cxx_headers}" -isystem "${cxx_headers}/arm-none-eabi/thumb/v7-m/nofp"
   -isystem "${picolibc}/include")
-include("${CMAKE_CURRENT_LIST_DIR}/bare-metal.cmake")
-string(APPEND CMAKE_EXE_LINKER_FLAGS_INIT
-  " -nostdlib -L${picolibc}/lib/rv32imac/ilp32")
+set(linker_flags -nostdlib "-L${picolibc}/lib/rv32imac/ilp32")
 set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-Wl,--start-group -lc -lgcc -Wl,--end-group")
+include("${CMAKE_CURRENT_LIST_DIR}/bare-metal.cmake")
