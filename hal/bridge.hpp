@@ -1,4 +1,4 @@
-/// From an amplitude to the pulses of a full bridge.
+/// A carrier of pulses: its period, and from an amplitude to the pulses of a full bridge.
 #pragma once
 
 #include <array>
@@ -43,6 +43,16 @@ constexpr auto half_widths() {
 inline constexpr auto half_width_table = half_widths();
 
 }  // namespace detail
+
+/// Whether so many ticks of a clock are a carrier period, as exactly as a crystal gives the clock.
+constexpr bool is_period(std::uint32_t ticks, std::uint32_t clock_hz, double period_s) {
+  constexpr double crystal_tolerance = 30e-6;
+  if (ticks == 0) {
+    return false;
+  }
+  const double error = period_s * clock_hz / ticks - 1.0;
+  return -crystal_tolerance < error && error < crystal_tolerance;
+}
 
 /// Half of the width of the pulses of a bridge that is driven by one pulse of either sign in each carrier
 /// period, half a period apart and centred on the drive's phases 0 and pi. The voltage between the legs then

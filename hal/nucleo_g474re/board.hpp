@@ -75,10 +75,8 @@ class Board {
 
   /// Clocks in a carrier period; 0 if the board cannot make it: the frequency is 84 MHz / n, n from 960 to 65,535.
   static constexpr std::uint32_t period_ticks(double period_s) {
-    constexpr double crystal_tolerance = 30e-6;
     const std::uint32_t ticks = nearest_period_ticks(period_s);
-    const double error = period_s * system_hz / ticks - 1.0;
-    return -crystal_tolerance < error && error < crystal_tolerance ? ticks : 0;
+    return is_period(ticks, system_hz, period_s) ? ticks : 0;
   }
 
   /// Likewise at the start of a drive that is tuned, whose frequency need not be one of these.

@@ -58,13 +58,11 @@ class Board {
   /// 97 on, 60 kHz with n = 100.
   static constexpr std::uint32_t period_ticks(double period_s) {
     constexpr std::uint32_t step = system_hz / (converter_hz / (2 * pairs_in_period));
-    constexpr double crystal_tolerance = 30e-6;
     // Not negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const auto steps = static_cast<std::uint32_t>(period_s * system_hz / step + 0.5);
-    const double error = period_s * system_hz / (steps * step) - 1.0;
-    const bool exact =
-        -crystal_tolerance < error && error < crystal_tolerance && steps * step % 2 == 0;
-    return exact && 97 <= steps && steps * step / 2 <= 0xffff ? steps * step : 0;
+    const std::uint32_t ticks = steps * step;
+    const bool whole = is_period(ticks, system_hz, period_s) && ticks % 2 == 0;
+    return whole && 97 <= steps && ticks / 2 <= 0xffff ? ticks : 0;
   }
 
   /// Starts the conversions, and the carrier at an end of a period's conversions.
