@@ -26,13 +26,6 @@ static_assert(std::is_same_v<DesignOf<scene::VibrationMode::feedforward>, Feedfo
               std::is_same_v<DesignOf<scene::VibrationMode::damped>, DampedDesign> &&
               std::is_same_v<DesignOf<scene::VibrationMode::resonant>, ResonantDesign>);
 
-/// Between two codes, of full scale; 0 in floating point.
-double resolution(scene::Arithmetic arithmetic) {
-  return arithmetic == scene::Arithmetic::q15   ? 0x1p-15
-         : arithmetic == scene::Arithmetic::q31 ? 0x1p-31
-                                                : 0.0;
-}
-
 /// @throws ConfigurationError  the sensor does not read a force that is the target, or the controller
 ///         takes it for 0
 void require_readable_targets(const scene::Scene& scene, const ControlDesign& design) {

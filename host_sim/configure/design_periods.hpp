@@ -8,6 +8,7 @@
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/control_design.hpp"
+#include "host_sim/configure/design_steps.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/scene/scene.hpp"
 
@@ -41,8 +42,7 @@ inline double contact_settling_periods(const scene::Scene& scene) {
 
 /// 1/n, below 1: fixed point ends there.
 inline double mean_weight(double samples) {
-  constexpr double largest_code = 1.0 - 0x1p-31;
-  return std::min(1.0 / samples, largest_code);
+  return std::min(1.0 / samples, 1.0 - resolution(scene::Arithmetic::q31));
 }
 
 inline constexpr double least_presliding_travels = 7.0;  // 0.1 % of the force is left

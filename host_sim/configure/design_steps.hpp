@@ -12,6 +12,9 @@ namespace sonoglide::configure {
 /// Force of one code of the converter; 0 of an ideal one.
 double code_N(const scene::Sensor& sensor);
 
+/// Between two codes of a controller, of full scale; 0 in floating point.
+double resolution(scene::Arithmetic arithmetic);
+
 /// In which the contact sticks before it slips.
 double presliding_m(const NominalPlant& plant);
 

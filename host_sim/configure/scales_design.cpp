@@ -25,6 +25,12 @@ double presliding_m(const NominalPlant& plant) {
                                                : 0.0;
 }
 
+double resolution(scene::Arithmetic arithmetic) {
+  return arithmetic == scene::Arithmetic::q15   ? 0x1p-15
+         : arithmetic == scene::Arithmetic::q31 ? 0x1p-31
+                                                : 0.0;
+}
+
 namespace {
 
 /// The controller's resolution ends here, per unit.

@@ -1,8 +1,10 @@
 #include "host_sim/studies/paper/contact_laws.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
+#include <string>
 
 #include "firmware/friction/coulomb_friction_ratio.hpp"
 #include "firmware/friction/dahl_friction_ratio.hpp"
@@ -25,23 +27,12 @@ namespace {
 
 // What no source gives for this contact, the static friction and the curves, is chosen: a static
 // friction half as large again, least friction at 50 mm/s, a quarter below the static one.
-constexpr const char* coulomb_contact = "law = \"coulomb\"\ncoefficient = 0.1\n";
-constexpr const char* lugre_contact = R"(law = "lugre"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-static_coefficient = 0.15
+constexpr const char* lugre_keys = R"(static_coefficient = 0.15
 stribeck_velocity_m_per_s = 0.02
 bristle_damping_N_s_per_m = 0.01
 viscous_friction_N_s_per_m = 0.02
 )";
-constexpr const char* iwan_contact = R"(law = "iwan"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-elements = 1
-)";
-constexpr const char* stribeck_contact = R"(law = "stribeck"
-coefficient = 0.1
-fall_s_per_m = 0.75
+constexpr const char* stribeck_keys = R"(fall_s_per_m = 0.75
 rise_s3_per_m3 = 100.0
 )";
 
@@ -52,14 +43,19 @@ double stribeck_closed_form(double velocity_ratio) {
       velocity_ratio, {drop, peak_vibration_m_per_s(table_1()) / speed_of_least_m_per_s});
 }
 
+std::string with_stiffness(const char* keys) {
+  return fmt::format("{}{}", table_1::contact_stiffness, keys);
+}
+
 std::vector<ContactLaw> make_laws() {
+  using table_1::contact;
   const double dahl = dahl_number(table_1());
-  return {{"Coulomb", "coulomb", coulomb_contact, friction::coulomb_friction_ratio<double>},
-          {"Dahl", "dahl", std::string(table_1::contact),
+  return {{"Coulomb", "coulomb", contact("coulomb", ""), friction::coulomb_friction_ratio<double>},
+          {"Dahl", "dahl", contact(),
            [dahl](double ratio) { return friction::dahl_friction_ratio(ratio, dahl); }},
-          {"LuGre", "lugre", lugre_contact, {}},
-          {"Iwan", "iwan", iwan_contact, {}},
-          {"Stribeck", "stribeck", stribeck_contact, stribeck_closed_form}};
+          {"LuGre", "lugre", contact("lugre", with_stiffness(lugre_keys)), {}},
+          {"Iwan", "iwan", contact("iwan", with_stiffness("elements = 1\n")), {}},
+          {"Stribeck", "stribeck", contact("stribeck", stribeck_keys), stribeck_closed_form}};
 }
 
 }  // namespace

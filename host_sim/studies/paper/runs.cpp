@@ -54,14 +54,14 @@ std::string text_of(const Parts& parts) {
 
 std::string table_1_text() {
   return text_of({"The paper's Table 1 at 384 N and a velocity ratio of 0.5, from rest.",
-                  table_1::contact, own_method, start_from_rest});
+                  table_1::contact(), own_method, start_from_rest});
 }
 
 std::string table_2_text() {
   return text_of(
       {"The paper's Table 2: Table 1 and the paper's own solver, 1000 steps in a carrier "
        "period.",
-       table_1::contact, printed_method, start_from_rest});
+       table_1::contact(), printed_method, start_from_rest});
 }
 
 std::string table_1_text(std::string_view contact) {

@@ -24,7 +24,7 @@ const scene::Scene& table_1_scene() {
   static const scene::Scene scene = scene_file::read_text(
       fmt::format(
           "{}[friction]\n{}{}[solver]\nmethod = \"event_taylor\"\n[run]\nduration_periods = 1\n",
-          table_1::plant, table_1::contact, table_1::motion),
+          table_1::plant, table_1::contact(), table_1::motion),
       "table_1.toml");
   return scene;
 }
