@@ -123,6 +123,7 @@ class Controller {
   Command step(const Measurement& measurement) {
     vibration_.before();
     Command command{answer(measurement, inspect<typename PartsT::Force, Known>(measurement))};
+    vibration_.balance(command, [&] { return expected_friction(measurement, command.limit); });
     vibration_.after(command);
     return command;
   }
@@ -182,6 +183,18 @@ class Controller {
 
   DriveCommand<Scalar> undriven(Limit limit) const {
     return {Scalar{}, whole_ratio(), state_, limit, fault_, Settling::pending};
+  }
+
+  /// That of the target, with the sign of a sample; without a drive that of the sample.
+  Scalar expected_friction(const Measurement& measurement, Limit limit) const {
+    const bool driven = (state_ == State::running || state_ == State::limited) &&
+                        limit != Limit::speed_floor && limit != Limit::velocity_at_rail;
+    if (PartsT::Force::present && !driven) {
+      return measurement.friction_force;
+    }
+    const Scalar force =
+        target_ < whole_ratio() ? numeric::twice(target_) * level_.force() : level_.force();
+    return backwards_ ? -force : force;
   }
 
   /// Learns one sample of the undriven friction. The drive begins a period after the last one.

@@ -82,9 +82,15 @@ void design_bias(const scene::Scene& scene, const NominalPlant& plant, ControlDe
         "is of no use: no reading of the friction tells a natural mode within 0.5 % of the carrier "
         "frequency from 0; allowed: 0, or a sensor.vibration");
   }
+  if (scene.drive->bias_limit_N > 0.0 && scene.controller->arithmetic == scene::Arithmetic::q15) {
+    throw ConfigurationError("controller.arithmetic",
+                             "\"q15\" is too coarse for drive.bias_limit_N; allowed: \"float32\", "
+                             "\"q31\", \"float64\"");
+  }
   if (scene.drive->bias_limit_N > 0.0) {
     design.bias =
-        design_bias(scene, plant, nominal_resonator(scene, plant, design.scales.velocity_m_per_s));
+        design_bias(scene, plant, nominal_resonator(scene, plant, design.scales.velocity_m_per_s),
+                    design.scales.force_N);
   }
 }
 

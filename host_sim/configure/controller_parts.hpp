@@ -74,14 +74,16 @@ struct VibrationParts {
       Choice<control::FedForward<Scalar>, Resonant<control::FullCurrent>,
              Resonant<control::CurrentLimit>, Damped, Sensorless<control::PromptReading>,
              Sensorless<control::LaggingReading>, BiasedDamped,
-             BiasedSensorless<control::PromptReading>, BiasedSensorless<control::LaggingReading>>,
+             BiasedSensorless<control::PromptReading>, BiasedSensorless<control::LaggingReading>,
+             control::BalancedFedForward<Scalar>>,
       Choice<control::FedForward<Scalar>>>;
 
   static Part chosen(const ControlDesign& design) {
     if constexpr (can_observe_vibration<Scalar>) {
       switch (design.vibration_mode()) {
         case scene::VibrationMode::feedforward:
-          break;
+          return design.bias ? Part(Type<control::BalancedFedForward<Scalar>>{})
+                             : Part(Type<control::FedForward<Scalar>>{});
         case scene::VibrationMode::sensorless:
           return design.in_mode<SensorlessDesign>()->lags()
                      ? sensorless<control::LaggingReading>(design)

@@ -241,6 +241,19 @@ void add_texture_note(const TextureDesign& texture, std::vector<std::string>& no
       texture.fastest_m_per_s / texture.overload));
 }
 
+std::string bias_note(const BiasDesign& bias) {
+  std::string note = fmt::format(
+      "A bias force of up to {:.4g} N takes the friction from the natural mode, at {:.3g} of the "
+      "carrier frequency",
+      bias.limit_N, bias.natural);
+  return bias.part > 0.0
+             ? fmt::format(
+                   "{}, and damps it: what acts in one carrier period takes {:.2g} of the "
+                   "mean velocity away.",
+                   note, bias.part)
+             : note + ". Nothing damps it but friction and the plant's own damping.";
+}
+
 }  // namespace
 
 std::vector<std::string> design_notes(const ControlDesign& design) {
@@ -253,10 +266,7 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
   }
   std::visit([&](const auto& mode) { add_notes(mode, design, notes); }, design.vibration);
   if (design.bias) {
-    notes.push_back(fmt::format(
-        "The natural mode, at {:.3g} of the carrier frequency, is damped by a bias force of up to "
-        "{:.4g} N: what acts in one carrier period takes {:.2g} of the mean velocity away.",
-        design.bias->natural, design.bias->limit_N, design.bias->part));
+    notes.push_back(bias_note(*design.bias));
   }
   add_tracking_note(design, notes);
   add_reach_note(design, notes);

@@ -95,7 +95,8 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
                                 : design_stepped(scene, mode);
   const bool quiet =
       found.notch || (found.quieting == Quieting::ramp && !scene.controller->shaping);
-  found.free_mode = mode.rotation > 0.0 && !quiet;
+  // What the friction changes by is balanced, so that feedback hardly excites it.
+  found.free_mode = mode.rotation > 0.0 && !quiet && !(scene.drive->bias_limit_N > 0.0);
   const double filter = filter_periods(scene, design.scales);
   const double shaping = found.changing_periods();
   // From a command to the reading that shows it.

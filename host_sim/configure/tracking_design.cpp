@@ -43,6 +43,11 @@ void require_trackable(const scene::Scene& scene, const ControlDesign& design) {
                        "controller.vibration = \"{}\": \"trusted\", \"calibrated\"",
                        scene::name_of(scene::vibration_controls, *controller.vibration)));
   }
+  if (scene.drive->bias_limit_N > 0.0) {
+    refuse("controller.friction",
+           "\"tracked\" is not for a drive with drive.bias_limit_N; allowed: \"trusted\", "
+           "\"calibrated\"");
+  }
   if (controller.arithmetic == scene::Arithmetic::q15) {
     refuse("controller.arithmetic",
            "\"q15\" is too coarse for controller.friction = \"tracked\"; allowed: \"float32\", "

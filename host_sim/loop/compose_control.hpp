@@ -95,6 +95,25 @@ std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
       parts.friction, map_of<Scalar>(design));
 }
 
+/// A drive that is fed forward, with a bias. What is left out of other compositions is wide open where a scene
+/// does not name it.
+template <class Scalar>
+std::unique_ptr<ControlPort> make_balanced_control(const ControlDesign& design) {
+  const configure::ControllerParts<Scalar> parts(design);
+  return std::visit(
+      [&](auto friction, auto feedforward, auto shaper) -> std::unique_ptr<ControlPort> {
+        using Parts =
+            control::Parts<Scalar, typename decltype(friction)::type,
+                           typename decltype(feedforward)::type, control::SlewLimit<Scalar>,
+                           typename decltype(shaper)::type,
+                           control::IntegralRegulator<Scalar, configure::max_reference_delay>,
+                           control::PeriodicRelearning<Scalar>, control::BalancedFedForward<Scalar>,
+                           control::ForceSensor, control::ForceTarget<Scalar>>;
+        return in_process<Parts>(design);
+      },
+      parts.friction, map_of<Scalar>(design), parts.shaper);
+}
+
 /// Friction that is learnt while driving; the slew limit is wide open where a scene does not name it.
 template <class Scalar>
 std::unique_ptr<ControlPort> make_tracking_control(const ControlDesign& design) {
@@ -123,6 +142,9 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
     using Current = control::CurrentLimit<Scalar>;
     switch (design.vibration_mode()) {
       case scene::VibrationMode::feedforward:
+        if (design.bias) {
+          return make_balanced_control<Scalar>(design);
+        }
         break;
       case scene::VibrationMode::sensorless:
         return design.bias

@@ -252,9 +252,9 @@ std::vector<Key> drive_keys() {
       {"bias_limit_N", OrZero{of_drive<&Drive::bias_limit_N>}, Number{force_range},
        drive.bias_limit_N,
        "limit of the actuator: largest force that is constant over a carrier period, beside the "
-       "carrier; 0: none. Above 0 the controller damps a slow natural mode by it, see "
-       "firmware/control/vibration.md",
-       closed_loop + uses::cosine_drive + uses::no_transducer + uses::damped_vibration},
+       "carrier; 0: none. Above 0 the controller takes the friction from a slow natural mode by it, "
+       "and with controller.vibration damps it, see firmware/control/vibration.md",
+       closed_loop + uses::cosine_drive + uses::no_transducer + uses::no_resonance},
   };
 }
 

@@ -114,15 +114,10 @@ inline const Uses no_observed_vibration = {{unobserved, is_fed_forward, "", with
 inline const Uses no_damped_vibration = {
     {"", [](const Scene& scene) { return !holds_by(scene, scene::VibrationControl::damped); }, "",
      with_mode, "controller"}};
-/// A loop that knows the mean velocity over a carrier period.
-inline const Uses damped_vibration = {
-    {"controller.vibration = \"damped\"",
-     [](const Scene& scene) { return holds_by(scene, scene::VibrationControl::damped); }, "",
-     [](const Scene& scene) {
-       return observes(scene) ? with_mode(scene)
-                              : std::string("without controller.vibration = \"damped\"");
-     },
-     "controller"}};
+inline const Uses no_resonance = {
+    {"controller.vibration other than \"resonant\"",
+     [](const Scene& scene) { return !holds_by(scene, scene::VibrationControl::resonant); }, "",
+     with_mode, "controller"}};
 inline const Uses robust_shaping = {
     {"controller.shaping = \"robust\"",
      [](const Scene& scene) { return scene.controller->shaping == scene::Shaping::robust; },

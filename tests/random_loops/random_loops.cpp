@@ -27,7 +27,8 @@ const std::map<std::string, random_loops::Vibration> vibrations = {
     {"damped", random_loops::Vibration::damped},
     {"alone", random_loops::Vibration::damped_alone},
     {"felt_biased", random_loops::Vibration::sensorless_biased},
-    {"damped_biased", random_loops::Vibration::damped_biased}};
+    {"damped_biased", random_loops::Vibration::damped_biased},
+    {"all_means", random_loops::Vibration::all_means}};
 
 struct Options {
   std::uint32_t seed = 1;
@@ -103,8 +104,10 @@ int main(int argument_count, char** arguments) {
           "--vibration", options.vibration,
           "The same loops with their natural mode damped: felt in the friction (felt), seen by a "
           "vibration sensor (damped), and without a force sensor (alone); felt and seen with a bias "
-          "against a slow mode (felt_biased, damped_biased)")
-      ->check(CLI::IsMember({"unseen", "felt", "damped", "alone", "felt_biased", "damped_biased"}))
+          "against a slow mode (felt_biased, damped_biased); what suits the nominal mode, with a "
+          "force sensor alone (all_means)")
+      ->check(CLI::IsMember(
+          {"unseen", "felt", "damped", "alone", "felt_biased", "damped_biased", "all_means"}))
       ->capture_default_str();
   program.add_option("--set", options.overrides, "KEY=VALUE in the scene of each loop; repeatable")
       ->allow_extra_args(false);

@@ -28,17 +28,19 @@ class BiasedDampedVibration : public DampedVibration<ScalarT, MaxDelay> {
   struct Parameters {
     typename Damped::Parameters vibration;
     typename BiasFeedback<Scalar>::Parameters bias;
+    typename FrictionBalance<Scalar>::Parameters balance;
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
       visit("vibration", self.vibration);
       visit("bias", self.bias);
+      visit("balance", self.balance);
     }
   };
 
   /// @param parameters  outlive this, see DampedVibration
   explicit BiasedDampedVibration(const Parameters& parameters)
-      : Damped(parameters.vibration), feedback_(parameters.bias) {}
+      : Damped(parameters.vibration), feedback_(parameters.bias), balance_(parameters.balance) {}
 
   /// See Controller::settle_at.
   void settle_at(const Parameters& parameters) { Damped::settle_at(parameters.vibration); }
@@ -49,13 +51,20 @@ class BiasedDampedVibration : public DampedVibration<ScalarT, MaxDelay> {
     return Damped::observe(measurement);
   }
 
+  /// See VibrationPart::balance.
+  template <class Friction>
+  void balance(const DriveCommand<Scalar>& command, const Friction& friction) {
+    balance_.expect(command, friction);
+  }
+
   void after(Command& command) {
     Damped::after(command);
-    feedback_.answer(mean_velocity_, command);
+    feedback_.answer(mean_velocity_, command, balance_.bias());
   }
 
  private:
   BiasFeedback<Scalar> feedback_;
+  FrictionBalance<Scalar> balance_;
   Scalar mean_velocity_{};
 };
 
@@ -74,6 +83,7 @@ class BiasedSensorlessVibration : public SensorlessVibration<ScalarT, MaxDelay, 
   struct Parameters {
     typename Sensorless::Parameters vibration;
     typename BiasFeedback<Scalar>::Parameters bias;
+    typename FrictionBalance<Scalar>::Parameters balance;
     Scalar mean_of_first;   ///< mean velocity of a mode whose first coordinate is 1, half of it
     Scalar mean_of_second;  ///< likewise
     /// What a bias of 1 takes from the second coordinate of w, at its begin.
@@ -83,6 +93,7 @@ class BiasedSensorlessVibration : public SensorlessVibration<ScalarT, MaxDelay, 
     static constexpr void fields(Self& self, Visitor&& visit) {
       visit("vibration", self.vibration);
       visit("bias", self.bias);
+      visit("balance", self.balance);
       visit("mean_of_first", self.mean_of_first);
       visit("mean_of_second", self.mean_of_second);
       visit("displacement", self.displacement);
@@ -93,6 +104,7 @@ class BiasedSensorlessVibration : public SensorlessVibration<ScalarT, MaxDelay, 
   explicit BiasedSensorlessVibration(const Parameters& parameters)
       : Sensorless(parameters.vibration),
         feedback_(parameters.bias),
+        balance_(parameters.balance),
         mean_{parameters.mean_of_first, parameters.mean_of_second},
         displacement_(numeric::floating(parameters.displacement)),
         past_bias_(parameters.vibration.delay) {}
@@ -112,11 +124,18 @@ class BiasedSensorlessVibration : public SensorlessVibration<ScalarT, MaxDelay, 
     observer_.displace(displaced(past_bias_.sampled(), past_bias_.sampled(1)));
   }
 
+  /// See VibrationPart::balance.
+  template <class Friction>
+  void balance(const DriveCommand<Scalar>& command, const Friction& friction) {
+    balance_.expect(command, friction);
+  }
+
   void after(Command& command) {
     Sensorless::after(command);
     const Pair<Scalar> mode = this->predicted_mode() + predicted_displacement();
-    feedback_.answer(mean_.first * mode.first + mean_.second * mode.second, command);
-    past_bias_.append(command.bias);
+    // The balance leaves the mode where it is.
+    past_bias_.append(feedback_.answer(mean_.first * mode.first + mean_.second * mode.second,
+                                       command, balance_.bias()));
   }
 
  private:
@@ -137,6 +156,7 @@ class BiasedSensorlessVibration : public SensorlessVibration<ScalarT, MaxDelay, 
   }
 
   BiasFeedback<Scalar> feedback_;
+  FrictionBalance<Scalar> balance_;
   Pair<Scalar> mean_;
   numeric::Floating<Scalar> displacement_;
   PastDrive<Scalar, MaxDelay, 1> past_bias_;

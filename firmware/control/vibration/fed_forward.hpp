@@ -5,6 +5,7 @@
 #include "firmware/control/interface/measurement.hpp"
 #include "firmware/control/interface/part_name.hpp"
 #include "firmware/control/interface/signals.hpp"
+#include "firmware/control/vibration/bias_feedback.hpp"
 #include "firmware/control/vibration/vibration_part.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -33,6 +34,30 @@ class FedForward : public VibrationPart<ScalarT> {
     const bool clipped = shaped < Scalar{} || (ceiling <= shaped && requested < ceiling);
     return {numeric::clamp(shaped, Scalar{}, ceiling), clipped ? Limit::actuator : Limit::none};
   }
+};
+
+/// The same with a bias that takes the friction of the target from the mass.
+template <class ScalarT>
+class BalancedFedForward : public FedForward<ScalarT> {
+ public:
+  static constexpr PartName part_name{"vibration/fed_forward", "BalancedFedForward"};
+  using Scalar = ScalarT;
+  using Command = BiasedCommand<Scalar>;
+  using Parameters = typename FrictionBalance<Scalar>::Parameters;
+
+  explicit BalancedFedForward(const Parameters& parameters)
+      : FedForward<Scalar>({}), balance_(parameters) {}
+
+  /// See VibrationPart::balance.
+  template <class Friction>
+  void balance(const DriveCommand<Scalar>& command, const Friction& friction) {
+    balance_.expect(command, friction);
+  }
+
+  void after(Command& command) const { set_bias(balance_.bias(), command); }
+
+ private:
+  FrictionBalance<Scalar> balance_;
 };
 
 }  // namespace sonoglide::control

@@ -58,6 +58,12 @@ class VibrationPart {
   /// What DriveCommand::commanded_ratio tells.
   static constexpr Scalar reported_ratio(Scalar commanded) { return commanded; }
 
+  /// One call for each step, with its answer, before after(). friction() is the mean friction force that is
+  /// expected, with the sign of a sample.
+  template <class Friction>
+  static constexpr void balance(const DriveCommand<Scalar>& /*command*/,
+                                const Friction& /*friction*/) {}
+
   /// One call for each step, with its answer, to which a mode may add.
   static constexpr void after(const DriveCommand<Scalar>& /*command*/) {}
 };

@@ -23,7 +23,7 @@ double cos_of_turns(double turns) {
 /// through its delay and could answer as if there were none; what its observer lags behind is taken for
 /// a period.
 int delay_periods(const scene::Scene& scene) {
-  return scene.sensor.vibration ? scene.drive->delay_periods : 1;
+  return scene.sensor.vibration || !scene.controller->vibration ? scene.drive->delay_periods : 1;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ double wanted_bias_N(double friction_N, double force_N, double natural_per_carri
 }
 
 BiasDesign design_bias(const scene::Scene& scene, const NominalPlant& plant,
-                       const Resonator& resonator) {
+                       const Resonator& resonator, double force_N) {
   const int delay = delay_periods(scene);
   const double natural = numeric::sqrt(resonator.stiffness) / numeric::two_pi;
   if (!(natural < fastest_biased_mode(delay))) {
@@ -62,6 +62,10 @@ BiasDesign design_bias(const scene::Scene& scene, const NominalPlant& plant,
   BiasDesign design;
   design.limit_N = scene.drive->bias_limit_N;
   design.natural = natural;
+  design.per_force = force_N / design.limit_N;
+  if (!scene.controller->vibration) {
+    return design;
+  }
   design.part = taken * largest_bias_part(natural, delay);
   const double push =
       resonator.push * design.limit_N / (scene.max_drive_force_N() * plant.force_factor);

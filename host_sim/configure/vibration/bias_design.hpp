@@ -9,11 +9,12 @@ namespace sonoglide::configure {
 
 /// Per unit of ControlScales, but for the limit.
 struct BiasDesign {
-  double limit_N = 0.0;   ///< the bias of 1
-  double natural = 0.0;   ///< frequency, over that of the carrier
-  double part = 0.0;      ///< g: of the mean velocity, that the bias takes away in a carrier period
-  double gain = 0.0;      ///< bias that answers a mean velocity of 1
-  double per_mode = 0.0;  ///< free velocity that a bias of 1 takes from Im w, see ModeModel
+  double limit_N = 0.0;  ///< the bias of 1
+  double natural = 0.0;  ///< frequency, over that of the carrier
+  double part = 0.0;     ///< g: of the mean velocity, that the bias takes away in a carrier period
+  double per_force = 0.0;       ///< bias that balances a friction force of 1
+  double gain = 0.0;            ///< bias that answers a mean velocity of 1
+  double per_mode = 0.0;        ///< free velocity that a bias of 1 takes from Im w, see ModeModel
   double mean_of_first = 1.0;   ///< mean of the free velocity over a period: of Re w
   double mean_of_second = 0.0;  ///< likewise of Im w
 };
@@ -36,9 +37,10 @@ double wanted_bias_N(double friction_N, double force_N, double natural_per_carri
 
 /// Of a scene with a bias limit.
 /// @param resonator  the nominal one, with velocities per velocity_m_per_s
+/// @param force_N    base of the friction force
 /// @throws ConfigurationError  the mode is too fast for the delay, or too slow for a sensorless loop to
 ///         tell
 BiasDesign design_bias(const scene::Scene& scene, const NominalPlant& plant,
-                       const Resonator& resonator);
+                       const Resonator& resonator, double force_N);
 
 }  // namespace sonoglide::configure

@@ -243,7 +243,14 @@ template <class Scalar, int MaxDelay>
 typename control::BiasedDampedVibration<Scalar, MaxDelay>::Parameters parameters(
     const ControlDesign& design, Type<control::BiasedDampedVibration<Scalar, MaxDelay>> /*part*/) {
   return {parameters(design, Type<control::DampedVibration<Scalar, MaxDelay>>{}),
-          {split<Scalar>(design.bias->gain)}};
+          {split<Scalar>(design.bias->gain)},
+          {split<Scalar>(design.bias->per_force)}};
+}
+
+template <class Scalar>
+typename control::BalancedFedForward<Scalar>::Parameters parameters(
+    const ControlDesign& design, Type<control::BalancedFedForward<Scalar>> /*part*/) {
+  return {split<Scalar>(design.bias->per_force)};
 }
 
 template <class Scalar, int MaxDelay, class Reading>
@@ -255,6 +262,7 @@ typename control::BiasedSensorlessVibration<Scalar, MaxDelay, Reading>::Paramete
   all.vibration =
       parameters(design, Type<control::SensorlessVibration<Scalar, MaxDelay, Reading>>{});
   all.bias = {split<Scalar>(design.bias->gain * mode_unit)};
+  all.balance = {split<Scalar>(design.bias->per_force)};
   all.mean_of_first = scaled_within<Scalar>(design.bias->mean_of_first);
   all.mean_of_second = scaled_within<Scalar>(design.bias->mean_of_second);
   all.displacement = split<Scalar>(2.0 * design.bias->per_mode / mode_unit);

@@ -121,8 +121,9 @@ TEST(RunNotesTest, ABiasIsToldWithWhatItTakesAway) {
   const Told told = run("damped_step",
                         "--set drive.bias_limit_N=4 --set plant.stiffness_N_per_m=2.5e6 "
                         "--set drive.max_force_amplitude_N=2000");
-  EXPECT_NE(told.summary["control"]["notes"].dump().find("damped by a bias force of up to 4 N"),
-            std::string::npos);
+  EXPECT_NE(
+      told.summary["control"]["notes"].dump().find("A bias force of up to 4 N takes the friction"),
+      std::string::npos);
   EXPECT_EQ(told.summary["control"]["notes"].dump().find("no change of the amplitude"),
             std::string::npos);
 }

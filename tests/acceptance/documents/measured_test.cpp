@@ -114,6 +114,24 @@ TEST(MeasuredFigures, OfABiasAreThoseOfItsTables) {
   }
 }
 
+TEST(MeasuredFigures, OfAllMeansAreThoseOfTheirTable) {
+  const std::string text = document();
+  const csv::Table table = csv::read_file(source / "tests/random_loops/all_means.csv");
+  for (const auto& [name, loops] :
+       {std::pair("all", "all"), std::pair("without a known cause", "none of these"),
+        std::pair("mode within 0.0052 of a multiple", "within 0.0052"),
+        std::pair("mode within 0.064 of a multiple", "within 0.064"),
+        std::pair("mode below 0.064", "below 0.064"),
+        std::pair("friction trusted by the scene", "trusted")}) {
+    for (const char* model : {"exact", "wrong"}) {
+      const csv::Row row = loops_of(table, model, loops);
+      const std::string line =
+          fmt::format("| {} | {} | {:.0f} | {} |", name, model, reachable_steps(row), shares(row));
+      EXPECT_NE(text.find(line), std::string::npos) << line;
+    }
+  }
+}
+
 std::string instructions(const csv::Table& budget, const std::string& board,
                          const std::string& arithmetic, const std::string& scene) {
   for (const csv::Row& row : budget.rows()) {

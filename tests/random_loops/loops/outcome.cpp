@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "firmware/control/interface/names.hpp"
 #include "host_sim/configure/read/experiment.hpp"
@@ -52,6 +53,36 @@ void run_loop(const experiment::Experiment& experiment, Outcome& outcome) {
   }
 }
 
+/// How a loop with all means comes to know its friction, best first: it calibrates, or where there is no time
+/// for it learns while it drives, or else trusts.
+std::vector<std::vector<std::string>> friction_sources(Vibration vibration) {
+  if (vibration != Vibration::all_means) {
+    return {{}};
+  }
+  return {{"controller.friction=\"calibrated\""},
+          {"controller.friction=\"tracked\"",
+           "controller.calibration_s=", "controller.vibration=", "drive.bias_limit_N="},
+          {}};
+}
+
+/// @throws scene_file::SceneError  the scene is refused
+experiment::Experiment read(const RandomLoop& loop, Vibration vibration,
+                            const std::vector<std::string>& overrides) {
+  const auto sources = friction_sources(vibration);
+  for (const std::vector<std::string>& source : sources) {
+    std::vector<std::string> all = overrides;
+    all.insert(all.end(), source.begin(), source.end());
+    try {
+      return experiment::read_text(scene_text(loop, vibration), "random.toml", all);
+    } catch (const scene_file::SceneError&) {
+      if (&source == &sources.back()) {
+        throw;
+      }
+    }
+  }
+  throw std::logic_error("a loop has a source of its friction");
+}
+
 }  // namespace
 
 bool StepOutcome::named() const {
@@ -63,8 +94,7 @@ Outcome outcome(std::uint32_t seed, std::uint32_t index, Vibration vibration,
   Outcome outcome;
   outcome.loop = random_loop(seed, index);
   try {
-    const experiment::Experiment experiment =
-        experiment::read_text(scene_text(outcome.loop, vibration), "random.toml", overrides);
+    const experiment::Experiment experiment = read(outcome.loop, vibration, overrides);
     if (vibration == Vibration::sensorless || vibration == Vibration::sensorless_biased) {
       outcome.loop.calibration_s =
           *experiment.plant.controller->calibration_s;  // absent: by default

@@ -235,6 +235,10 @@ void draw_model_error(Dice& dice, RandomLoop& loop) {
   loop.model_error = error;
 }
 
+/// Natural over carrier frequency, from which on a sensorless loop tells a mode from the vibration, however
+/// its stiffness is off.
+constexpr double told_mode = 1.03 / 192.0;
+
 /// Lines of a scene. Six digits are enough to be what was drawn, and short enough to be read.
 class SceneText {
  public:
@@ -276,17 +280,41 @@ void write_friction(SceneText& text, const RandomLoop& loop) {
   text.number_unless_zero("normal_contact_stiffness_N_per_m", own.normal_contact_stiffness_N_per_m);
 }
 
-/// A bias limit of about what design recommends, for a slow mode. A sensorless loop does not tell the
-/// slowest ones, however its stiffness is off.
-void write_bias(SceneText& text, const RandomLoop& loop, Vibration vibration) {
-  constexpr double told = 1.03 / 192.0;
-  const double slowest = vibration == Vibration::sensorless_biased ? told : 0.0;
-  const bool biased =
-      vibration == Vibration::sensorless_biased || vibration == Vibration::damped_biased;
-  if (biased && slowest < loop.mode_per_carrier && loop.mode_per_carrier < slow_mode) {
+double nominal_mode_per_carrier(const RandomLoop& loop) {
+  return loop.mode_per_carrier * (loop.model_error ? std::sqrt(loop.model_error->stiffness) : 1.0);
+}
+
+bool biased(const RandomLoop& loop, Vibration vibration) {
+  switch (vibration) {
+    case Vibration::sensorless_biased:  // a sensorless loop does not tell the slowest ones
+      return told_mode < loop.mode_per_carrier && loop.mode_per_carrier < slow_mode;
+    case Vibration::damped_biased:
+      return loop.mode_per_carrier < slow_mode;
+    case Vibration::all_means:
+      return means_for(loop).biased;
+    default:
+      return false;
+  }
+}
+
+/// A bias limit of about what design recommends, for a slow mode; and how the drive passes.
+void write_drive(SceneText& text, const RandomLoop& loop, Vibration vibration) {
+  text.table("drive");
+  text.number("frequency_Hz", loop.frequency_Hz);
+  text.number("max_force_amplitude_N", loop.max_force_amplitude_N);
+  if (biased(loop, vibration)) {
     text.number("bias_limit_N", 2.0 * friction_N(loop) +
                                     0.056 * loop.mode_per_carrier * loop.max_force_amplitude_N);
   }
+  if (vibration == Vibration::all_means && means_for(loop).ramped) {
+    text.word("interpolation", "linear");
+    text.line("codes_per_period = 8");
+  }
+}
+
+bool observes(const RandomLoop& loop, Vibration vibration) {
+  return vibration == Vibration::all_means ? means_for(loop).sensorless
+                                           : vibration != Vibration::unseen;
 }
 
 void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibration) {
@@ -299,8 +327,9 @@ void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibrati
   text.table("run");
   text.number("duration_s", begin_s);
   text.table("controller");
-  const bool damped = vibration != Vibration::unseen;
-  text.word("arithmetic", damped && loop.arithmetic == "q15" ? "q31" : loop.arithmetic);
+  const bool damped = observes(loop, vibration);
+  const bool finer = damped || vibration == Vibration::all_means;
+  text.word("arithmetic", finer && loop.arithmetic == "q15" ? "q31" : loop.arithmetic);
   if (damped) {
     text.word("vibration", "damped");
   }
@@ -312,8 +341,8 @@ void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibrati
 
 void write_sensor(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   const SensorNumbers& sensor = loop.sensor;
-  const bool damped = vibration != Vibration::unseen && vibration != Vibration::sensorless &&
-                      vibration != Vibration::sensorless_biased;
+  const bool damped = vibration == Vibration::damped || vibration == Vibration::damped_alone ||
+                      vibration == Vibration::damped_biased;
   if (sensor.ideal() && !damped) {
     return;
   }
@@ -363,6 +392,22 @@ double beside_multiple(const RandomLoop& loop) {
                        : std::abs(loop.mode_per_carrier - nearest);
 }
 
+Means means_for(const RandomLoop& loop) {
+  constexpr double beside = 0.1;
+  constexpr double half_turn = 0.02;
+  const double mode = nominal_mode_per_carrier(loop);
+  const double nearest = std::round(mode);
+  const bool multiple = nearest >= 2.0 && std::abs(mode - nearest) < beside;
+  const double part = mode - std::floor(mode);
+  const bool turns_by_half = std::abs(part - 0.5) < half_turn;
+  const bool shows = loop.law != "transverse_coulomb" && loop.law != "normal_coulomb";
+  Means means;
+  means.biased = mode < slow_mode && shows;
+  means.sensorless = shows && !multiple && !turns_by_half && mode > told_mode;
+  means.ramped = !means.sensorless && !means.biased;
+  return means;
+}
+
 Cause cause_of(const RandomLoop& loop) {
   constexpr double beside = 0.13;
   constexpr double slow_s = 0.5e-3;
@@ -410,10 +455,7 @@ std::string scene_text(const RandomLoop& loop, Vibration vibration) {
   write_friction(text, loop);
   text.table("sliding");
   text.number("velocity_m_per_s", loop.sliding_velocity_m_per_s);
-  text.table("drive");
-  text.number("frequency_Hz", loop.frequency_Hz);
-  text.number("max_force_amplitude_N", loop.max_force_amplitude_N);
-  write_bias(text, loop, vibration);
+  write_drive(text, loop, vibration);
   text.table("solver");
   text.number("tolerance", 1e-8);
   write_controller(text, loop, vibration);

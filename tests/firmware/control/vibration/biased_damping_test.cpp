@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <random>
 
+#include "firmware/control/vibration/fed_forward.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::biased_damping_test {
@@ -119,6 +120,54 @@ TYPED_TEST(BiasFeedbackTest, OfAVibrationSensorAnswersItsMeanVelocity) {
     BiasedCommand<TypeParam> command = running<TypeParam>();
     loop.after(command);
     EXPECT_NEAR(numeric::to_real(command.bias), -0.75 * velocity, 1e-7);
+  }
+}
+
+template <class S>
+typename FrictionBalance<S>::Parameters balance(double per_force) {
+  const numeric::Split<double> parts = numeric::split(per_force);
+  return {{scaled<S>(parts.mantissa), parts.exponent}};
+}
+
+template <class S>
+class FrictionBalanceTest : public testing::Test {};
+TYPED_TEST_SUITE(FrictionBalanceTest, Scalars);
+
+/// b = F, limited and named; of an unusable sample that of the one before.
+TYPED_TEST(FrictionBalanceTest, TakesTheExpectedFrictionFromTheMass) {
+  BalancedFedForward<TypeParam> loop(balance<TypeParam>(1.5));
+  const auto biased = [&](double force, Limit limit, State state = State::running) {
+    BiasedCommand<TypeParam> command = running<TypeParam>();
+    command.limit = limit;
+    command.state = state;
+    loop.balance(command, [&] { return scaled<TypeParam>(force); });
+    loop.after(command);
+    return command;
+  };
+  EXPECT_NEAR(numeric::to_real(biased(0.5, Limit::none).bias), 0.75, 1e-6);
+  EXPECT_NEAR(numeric::to_real(biased(-0.25, Limit::none).bias), -0.375, 1e-6);
+  EXPECT_NEAR(numeric::to_real(biased(0.125, Limit::bad_sample).bias), -0.375, 1e-6);
+  EXPECT_EQ(biased(0.25, Limit::none).limit, Limit::none);
+  EXPECT_EQ(biased(0.75, Limit::none).limit, Limit::bias);
+  EXPECT_NEAR(numeric::to_real(biased(-0.75, Limit::none).bias), -1.0, 1e-6);
+  for (const State state : {State::off, State::fault}) {
+    EXPECT_EQ(biased(0.5, Limit::none, state).bias, TypeParam{});
+  }
+}
+
+/// Beside a damper their sum is limited. What is told of the damper is what is left of it.
+TYPED_TEST(FrictionBalanceTest, LeavesTheDamperWhatIsLeftOfTheRange) {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> part(-0.99, 0.99);
+  for (int i = 0; i < 10000; ++i) {
+    const double velocity = part(generator);
+    const double friction = part(generator);
+    BiasedCommand<TypeParam> command = running<TypeParam>();
+    const TypeParam damper = feedback<TypeParam>(1.0).answer(scaled<TypeParam>(velocity), command,
+                                                             scaled<TypeParam>(friction));
+    const double sum = std::clamp(friction - velocity, -1.0, 1.0);
+    EXPECT_NEAR(numeric::to_real(command.bias), sum, 3e-7) << velocity << " " << friction;
+    EXPECT_NEAR(numeric::to_real(damper), std::clamp(sum - friction, -1.0, 1.0), 3e-7);
   }
 }
 
