@@ -368,6 +368,9 @@ class FrictionTracking {
   /// The first reading after a dip, of a friction whose drift is known.
   bool led() const { return again_ && base_ == Base::none && !dips_; }
 
+  /// Half of the change of ln Fc from the dip to that reading.
+  Scalar drifted_since_dip() const { return drift_.change_over(mean_.moved_before()); }
+
   /// Ratio of the map where the drive stands; a dip has that of no drive.
   Scalar mapped() const { return dips_ ? one_half() : mean_.commanded(); }
 
@@ -384,9 +387,8 @@ class FrictionTracking {
   /// A reading that is no jump, because Kt and g may be another by as much, is one of a drift.
   void weigh() {
     if (led()) {
-      error_ = drift_.change_over(mean_.moved_before());
-      reading_.innovation = reading_.innovation -
-                            numeric::twice(numeric::rough_product(reading_.slope.force, error_));
+      reading_.innovation = reading_.innovation - numeric::twice(numeric::rough_product(
+                                                      reading_.slope.force, drifted_since_dip()));
     }
     phase_ = estimate_.weigh(reading_, wanted_, tests_map_) ? Phase::learn : Phase::judge;
   }
@@ -408,7 +410,7 @@ class FrictionTracking {
       }
     } else if (led()) {
       base_ = small(moved) ? Base::known : Base::first;
-      force = force + error_ + drift_.begin_ahead(explained(estimate_.residual()));
+      force = force + drifted_since_dip() + drift_.begin_ahead(explained(estimate_.residual()));
     } else if (small(moved)) {
       base_ = Base::known;
       drift_.goes_on(explained(estimate_.residual()));
@@ -487,7 +489,7 @@ class FrictionTracking {
   Floating force_change_{};
   typename Estimate::Reading reading_{};
   Scalar noise_{};     ///< half of that of a reading's logarithm
-  Scalar error_{};     ///< half of that of ln Fc
+  Scalar error_{};     ///< half of that of ln Fc, which follow() takes from judge()
   Scalar expected_{};  ///< ratio of the adapted map at the request, as the filter has it; or 0
   Place place_{};      ///< of the reading that is complete
   Place taken_at_{};   ///< of the last one that was weighed, or showed nothing new
