@@ -84,9 +84,8 @@ class ImageControl final : public loop::ControlPort {
 /// @throws process::ProcessError  a tool is missing, or the build failed
 /// @throws EmulatorError          the image did not answer, or not in order
 /// @throws what loop::run() throws, besides
-loop::RunResult run_image(const configure::Experiment& experiment,
-                          const EmulatedBoard& board, const std::string& header,
-                          const loop::Watch& watch);
+loop::RunResult run_image(const configure::Experiment& experiment, const EmulatedBoard& board,
+                          const std::string& header, const loop::Watch& watch);
 
 /// The same of an image that is built.
 loop::RunResult run_emulator(const configure::Experiment& experiment, const EmulatedBoard& board,
