@@ -10,8 +10,8 @@ namespace sonoglide::link {
 /// What a trace may wait for; a set of bits.
 enum class Trigger : std::uint8_t {
   now = 1,     ///< the next step
-  fault = 2,   ///< a new fault
-  target = 4,  ///< a new target comes into force
+  fault = 2,   ///< a fault comes
+  target = 4,  ///< another target comes into force
 };
 inline constexpr std::uint8_t all_triggers = 7;
 
