@@ -60,7 +60,7 @@ RunImage at_port(const SceneInput& input, const experiment::Experiment& experime
   };
 }
 
-/// Throws what run() throws, and process::ProcessError or emulated::EmulatorError where the image
+/// Throws what run() throws, and process::ProcessError or emulated::ImageError where the image
 /// cannot be built or carried on; in each case nothing was written and no other program is left
 /// behind.
 void pil(const PilOptions& options) {

@@ -127,7 +127,7 @@ int run_program(int argument_count, const char* const* arguments,
     return fail(system_failed, error.what());
   } catch (const process::ProcessError& error) {
     return fail(system_failed, error.what());
-  } catch (const emulated::EmulatorError& error) {
+  } catch (const emulated::ImageError& error) {
     return fail(system_failed, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(system_failed, error.path1().string() + ": " + error.code().message());

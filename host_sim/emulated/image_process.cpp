@@ -73,7 +73,7 @@ void ImageProcess::wait_for_answer() {
 }
 
 void ImageProcess::fail(const std::string& what) const {
-  throw EmulatorError(
+  throw ImageError(
       fmt::format("carrier period {}: the emulator {}{}", period(), what, last_words()));
 }
 

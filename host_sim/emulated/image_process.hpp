@@ -27,7 +27,7 @@ class ImageProcess final : public LockstepImage {
 
   /// Ends the input and waits for the image to leave; to be called once, last.
   /// @return its exit code
-  /// @throws EmulatorError  it does not leave in time, still sends something, or was ended by a
+  /// @throws ImageError  it does not leave in time, still sends something, or was ended by a
   /// signal
   int shut_down();
 

@@ -12,7 +12,7 @@
 namespace sonoglide::emulated {
 
 /// The image died, hung or answered out of turn; what() says which, in which carrier period.
-class EmulatorError : public std::runtime_error {
+class ImageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -26,11 +26,11 @@ class LockstepImage {
   virtual ~LockstepImage() = default;
 
   /// Waits for the greeting of a board on a serial line, which repeats it until the first frame.
-  /// @throws EmulatorError
+  /// @throws ImageError
   void await_greeting();
 
   /// One carrier period.
-  /// @throws EmulatorError
+  /// @throws ImageError
   hal::Drive exchange(const hal::Sample& sample);
   /// The same of a unit that observes the vibration.
   hal::ResonantDrive exchange(const hal::VibrationSample& sample);
@@ -42,14 +42,14 @@ class LockstepImage {
   hal::lockstep::AnswerCost latest_cost() const { return cost_; }
 
   /// Sends bytes as they are.
-  /// @throws EmulatorError
+  /// @throws ImageError
   virtual void send(const std::uint8_t* bytes, std::size_t size) = 0;
 
  protected:
   /// Waits for all of them.
-  /// @throws EmulatorError  they do not come in time
+  /// @throws ImageError  they do not come in time
   virtual void receive(std::uint8_t* bytes, std::size_t size) = 0;
-  /// @throws EmulatorError  who it is, and what it does wrong
+  /// @throws ImageError  who it is, and what it does wrong
   [[noreturn]] virtual void fail(const std::string& what) const = 0;
 
   /// Carrier period of the next exchange.

@@ -95,7 +95,7 @@ namespace {
 void shut_down(ImageProcess& image) {
   const int code = image.shut_down();
   if (code != 0) {
-    throw EmulatorError(fmt::format("the image left with exit code {}", code));
+    throw ImageError(fmt::format("the image left with exit code {}", code));
   }
 }
 

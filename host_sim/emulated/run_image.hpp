@@ -43,13 +43,13 @@ class ImageControl final : public loop::ControlPort {
   /// Nothing to do: the image has its targets compiled in, by carrier period.
   void set_target(double friction_ratio) override;
 
-  /// @throws EmulatorError
+  /// @throws ImageError
   hal::Drive exchange(const hal::Sample& sample) override;
-  /// @throws EmulatorError
+  /// @throws ImageError
   hal::ResonantDrive exchange(const hal::VibrationSample& sample) override;
-  /// @throws EmulatorError
+  /// @throws ImageError
   hal::BiasedDrive exchange_biased(const hal::Sample& sample) override;
-  /// @throws EmulatorError
+  /// @throws ImageError
   hal::BiasedDrive exchange_biased(const hal::MotionSample& sample) override;
 
   /// None: an image does not watch its signals.
@@ -82,7 +82,7 @@ class ImageControl final : public loop::ControlPort {
 /// @param header      of the same, as emulated::controller_header() writes it
 /// @return with the image's record
 /// @throws process::ProcessError  a tool is missing, or the build failed
-/// @throws EmulatorError          the image did not answer, or not in order
+/// @throws ImageError          the image did not answer, or not in order
 /// @throws what loop::run() throws, besides
 loop::RunResult run_image(const configure::Experiment& experiment, const EmulatedBoard& board,
                           const std::string& header, const loop::Watch& watch);
@@ -95,7 +95,7 @@ loop::RunResult run_emulator(const configure::Experiment& experiment, const Emul
 /// more with the controller in this process.
 ///
 /// @param experiment  in closed loop, whose image it is
-/// @throws EmulatorError  the board did not greet or answer, or not in order
+/// @throws ImageError  the board did not greet or answer, or not in order
 /// @throws what loop::run() throws, besides
 loop::RunResult run_board(const configure::Experiment& experiment, process::SerialPort& port,
                           const loop::Watch& watch);

@@ -18,7 +18,7 @@ void SerialImage::receive(std::uint8_t* bytes, std::size_t size) {
 }
 
 void SerialImage::fail(const std::string& what) const {
-  throw EmulatorError(fmt::format("{}: carrier period {}: the board {}",
+  throw ImageError(fmt::format("{}: carrier period {}: the board {}",
                                   process::printable(port_.device()), period(), what));
 }
 

@@ -26,7 +26,7 @@ struct UnitSteps {
 /// @param unit    its image, which the former does not need
 /// @param header  as controller_header() writes it
 /// @throws process::ProcessError   the build failed, or the emulator
-/// @throws EmulatorError           the image did not answer, or not in order
+/// @throws ImageError           the image did not answer, or not in order
 /// @throws loop::ComputationError  its commands are not the workstation's, or the solver failed
 UnitSteps unit_steps(const EmulatedBoard& board, const std::filesystem::path& unit,
                      const std::string& header, const configure::Experiment& experiment,

@@ -15,8 +15,8 @@
 #include "firmware/link/messages.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/unit/console.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::python {
 namespace {

@@ -3,20 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/process/scratch_folder.hpp"
 #include "host_sim/unit/unit_trace.hpp"
+#include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::unit {
 namespace {
@@ -27,16 +28,6 @@ constexpr const char* help_text =
     "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE, "
     "stream CHANNEL ... [every N], stream off, "
     "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE";
-
-std::string decimal(std::uint32_t value, int places) {
-  std::array<char, encoding::most_decimal_characters> text{};
-  return {text.data(), encoding::write_decimal(value, places, text.data())};
-}
-
-std::string millionths_of_code(std::int32_t code) {
-  const auto scaled = static_cast<std::uint64_t>(code) * 1'000'000;
-  return decimal(static_cast<std::uint32_t>((scaled + (1U << 30)) >> 31), 6);
-}
 
 bool read_value(const std::string& text, int places, std::uint32_t& value) {
   return encoding::read_decimal(text.data(), text.size(), places, value);
@@ -78,53 +69,23 @@ std::string text_of(const link::Identity& told) {
                      told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
 }
 
+/// A file that appears whole or not at all.
+bool write_whole(const std::filesystem::path& file, const std::string& content) try {
+  const process::ScratchFolder folder(file.has_parent_path() ? file.parent_path() : ".");
+  const std::filesystem::path staged = folder.path() / "trace.csv";
+  std::ofstream stream(staged);
+  stream << content;
+  stream.close();
+  std::error_code error;
+  if (stream) {
+    std::filesystem::rename(staged, file, error);
+  }
+  return stream && !error;
+} catch (const process::ScratchError&) {
+  return false;
+}
+
 }  // namespace
-
-std::size_t parameter_named(const std::string& name) {
-  std::size_t i = 0;
-  while (i < app::parameter_count && name != parameter_labels[i].name) {
-    ++i;
-  }
-  return i;
-}
-
-std::string board_of(const link::Identity& told) {
-  return {told.board.begin(), std::find(told.board.begin(), told.board.end(), '\0')};
-}
-
-std::string words_of(const link::Refusal& refusal, std::size_t parameter) {
-  switch (static_cast<link::Reason>(refusal.reason)) {
-    case link::Reason::out_of_range: {
-      const app::ParameterLabel& label = parameter_labels[parameter];
-      return fmt::format("{}: allowed is {} to {}{}", label.name,
-                         decimal(refusal.lowest, label.decimal_places),
-                         decimal(refusal.highest, label.decimal_places), label.unit);
-    }
-    case link::Reason::unknown_parameter: {
-      std::vector<std::string> names;
-      names.reserve(std::size(parameter_labels));
-      for (const app::ParameterLabel& label : parameter_labels) {
-        names.emplace_back(label.name);
-      }
-      return fmt::format("unknown parameter; there are: {}", fmt::join(names, ", "));
-    }
-    case link::Reason::drive_not_stopped:
-      return "stop the drive first";
-    case link::Reason::not_saved:
-      return "not saved: the flash of the unit took nothing; the old value stands";
-    case link::Reason::parameters_not_confirmed:
-      return "see params, then confirm them or set one";
-    case link::Reason::overtaken_by_fault:
-      return "not done: a fault came first";
-    case link::Reason::no_such_record:
-    case link::Reason::unknown_request:
-    case link::Reason::wrong_length:
-    case link::Reason::no_such_fault:
-    case link::Reason::out_of_turn:
-      break;
-  }
-  return fmt::format("refused by the unit, reason {}", refusal.reason);
-}
 
 std::vector<std::string> Console::carry_out(const std::string& line) {
   std::istringstream text(line);
@@ -322,7 +283,10 @@ Console::Lines Console::stream(const std::vector<std::string>& words) {
   if (wanted->channels == 0) {
     lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
   } else {
-    unit_.ask<link::Streaming>(*wanted);
+    const auto begun = unit_.ask<link::Streaming>(*wanted);
+    if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
+      return refuse(*refusal, 0);
+    }
     lines.push_back(table_.begin(*wanted));
   }
   return lines;
@@ -347,7 +311,10 @@ Console::Lines Console::trace(const std::vector<std::string>& words) {
                     "STEPS_BEFORE: 0 to {}",
                     state->records - 1));
   }
-  unit_.ask<link::TraceArmed>(*wanted);
+  const auto armed = unit_.ask<link::TraceArmed>(*wanted);
+  if (const auto* refusal = std::get_if<link::Refusal>(&armed)) {
+    return refuse(*refusal, 0);
+  }
   return {"trace waiting"};
 }
 
@@ -355,14 +322,11 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
   if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
     return refuse(text_of(state) + ": nothing to save");
   }
-  if (std::filesystem::exists(file)) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error)) {
     return refuse(process::printable(file) + ": is there already");
   }
-  const std::string table = read_trace(unit_, state);
-  std::ofstream stream(file);
-  stream << table;
-  stream.close();
-  if (!stream) {
+  if (!write_whole(file, read_trace(unit_, state))) {
     return refuse(process::printable(file) + ": cannot be written");
   }
   return {fmt::format("{} steps saved", state.records)};

@@ -1,7 +1,6 @@
 /// The commands by which a person talks to a unit.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -10,19 +9,6 @@
 #include "host_sim/unit/unit_link.hpp"
 
 namespace sonoglide::unit {
-
-/// A save may take 10 s in the unit.
-inline constexpr std::chrono::milliseconds longest_save{12000};
-
-/// @return its number, see app::Parameter; app::parameter_count if there is none
-std::size_t parameter_named(const std::string& name);
-
-/// The name of the board that a unit is.
-std::string board_of(const link::Identity& told);
-
-/// Why a unit refuses a request.
-/// @param parameter  of the value that was asked for
-std::string words_of(const link::Refusal& refusal, std::size_t parameter);
 
 /// Each line is a command; what the unit answers is put in words.
 class Console {

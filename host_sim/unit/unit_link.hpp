@@ -14,6 +14,9 @@
 
 namespace sonoglide::unit {
 
+/// A save may take 10 s in the unit.
+inline constexpr std::chrono::milliseconds longest_save{12000};
+
 /// The host's end of the framed link (firmware/link). One request at a time. What a unit streams meanwhile
 /// is kept until it is taken.
 class UnitLink {

@@ -380,7 +380,7 @@ TEST_P(ResetInMidRun, EndsTheImage) {
     for (;; ++period) {
       image.exchange(good_sample(period));
     }
-  } catch (const EmulatorError& error) {
+  } catch (const ImageError& error) {
     EXPECT_NE(std::string(error.what()).find("ended with exit code 1"), std::string::npos)
         << error.what();
   }

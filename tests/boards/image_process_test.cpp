@@ -29,7 +29,7 @@ std::vector<std::string> running() {
 std::string failure(ImageProcess& board) {
   try {
     board.exchange(hal::Sample{});
-  } catch (const EmulatorError& error) {
+  } catch (const ImageError& error) {
     return error.what();
   }
   return "";

@@ -38,7 +38,7 @@ UnitBudget measure_unit(const Folders& folders, const emulated::EmulatedBoard& b
                         const std::string& image);
 
 /// Takes an image apart and runs its scene with it, in closed loop.
-/// @throws process::ProcessError, emulated::EmulatorError
+/// @throws process::ProcessError, emulated::ImageError
 /// @throws loop::ComputationError  a command differs from the workstation's: the cost of something else
 ImageBudget measure(const Folders& folders, const emulated::EmulatedBoard& board,
                     const std::string& image);

@@ -26,6 +26,7 @@
 #include "firmware/app/timed_loop.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_words.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
 #include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
@@ -97,6 +98,15 @@ class ServedUnit {
     board_.in_force.clear();
   }};
 };
+
+// At resonance the drive of either phase has an amplitude of either sign.
+TEST(UnitWords, ADriveOfEitherSign) {
+  EXPECT_EQ(millionths_of_code(1 << 30), "0.5");
+  EXPECT_EQ(millionths_of_code(-(1 << 30)), "-0.5");
+  EXPECT_EQ(millionths_of_code(INT32_MAX), "1");
+  EXPECT_EQ(millionths_of_code(INT32_MIN), "-1");
+  EXPECT_EQ(millionths_of_code(-1), "0");
+}
 
 class ConsoleTest : public testing::Test {
  protected:
