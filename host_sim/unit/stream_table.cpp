@@ -14,12 +14,12 @@
 namespace sonoglide::unit {
 namespace {
 
-constexpr std::array<const char*, link::channel_count> names = {
+constexpr std::array<const char*, link::channel_count> channel_words = {
     "friction_force", "sliding_velocity", "amplitude", "commanded_ratio", "target", "state"};
 
 std::string column_of(std::size_t channel) {
   return static_cast<link::Channel>(channel) == link::Channel::codes ? "state,limit,fault,settling"
-                                                                     : names.at(channel);
+                                                                     : channel_words.at(channel);
 }
 
 std::string text_of(std::size_t channel, std::uint32_t value) {
@@ -56,17 +56,17 @@ std::optional<link::Stream> stream_of(const std::vector<std::string>& words) {
     }
   }
   for (std::size_t i = 0; i < names_given; ++i) {
-    const auto* const name = std::find(names.begin(), names.end(), words[i]);
-    if (name == names.end()) {
+    const auto* const name = std::find(channel_words.begin(), channel_words.end(), words[i]);
+    if (name == channel_words.end()) {
       return std::nullopt;
     }
-    stream.channels |= static_cast<std::uint8_t>(1U << (name - names.begin()));
+    stream.channels |= static_cast<std::uint8_t>(1U << (name - channel_words.begin()));
   }
   return stream.channels == 0 ? std::nullopt : std::optional(stream);
 }
 
 std::string channel_names() {
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}", fmt::join(channel_words, ", "));
 }
 
 std::string text_of_code(std::uint32_t code) {
