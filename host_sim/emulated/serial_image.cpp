@@ -19,7 +19,7 @@ void SerialImage::receive(std::uint8_t* bytes, std::size_t size) {
 
 void SerialImage::fail(const std::string& what) const {
   throw ImageError(fmt::format("{}: carrier period {}: the board {}",
-                                  process::printable(port_.device()), period(), what));
+                               process::printable(port_.device()), period(), what));
 }
 
 }  // namespace sonoglide::emulated
