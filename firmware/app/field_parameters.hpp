@@ -58,6 +58,24 @@ inline constexpr std::array<std::uint32_t, parameter_count> parameter_identities
   return result;
 }();
 
+using ParameterRanges = std::array<ParameterRange, parameter_count>;
+
+/// What a unit tells its design by, in its store and to its host: the number of the controller's design
+/// with the names and ranges of its parameters.
+constexpr std::uint32_t design_number(std::uint32_t controller, const ParameterRanges& ranges) {
+  encoding::Crc32 sum;
+  sum.add_word(controller);
+  for (const std::uint32_t identity : parameter_identities) {
+    sum.add_word(identity);
+  }
+  for (const ParameterRange& range : ranges) {
+    sum.add_word(range.lowest);
+    sum.add_word(range.highest);
+    sum.add_word(range.preset);
+  }
+  return sum.value();
+}
+
 inline constexpr std::uint32_t one_in_millionths = 1'000'000;
 
 /// count / whole, rounded once; count at most whole, whole at most 2^24. 1 becomes the largest
@@ -142,7 +160,7 @@ class FieldDesign {
             {Inheritance::none, 0, tolerates_samples ? sample_window - 1 : 0, 0},
         }},
         target_(target),
-        design_(number(design)),
+        design_(design_number(design, ranges_)),
         periods_per_ms_(numeric::round_half_up<std::uint32_t>(1e-3 / period_s * one_in_fraction)) {}
 
   constexpr const ParameterRange& range(std::size_t parameter) const { return ranges_[parameter]; }
@@ -275,22 +293,8 @@ class FieldDesign {
     return value(values, parameter) != ranges_[static_cast<std::size_t>(parameter)].preset;
   }
 
-  constexpr std::uint32_t number(std::uint32_t design) const {
-    encoding::Crc32 sum;
-    sum.add_word(design);
-    for (const std::uint32_t identity : parameter_identities) {
-      sum.add_word(identity);
-    }
-    for (const ParameterRange& range : ranges_) {
-      sum.add_word(range.lowest);
-      sum.add_word(range.highest);
-      sum.add_word(range.preset);
-    }
-    return sum.value();
-  }
-
   Designed designed_;
-  std::array<ParameterRange, parameter_count> ranges_;
+  ParameterRanges ranges_;
   Scalar target_;
   std::uint32_t design_;
   std::uint32_t periods_per_ms_;  ///< of the loop, with 16 fraction bits

@@ -18,6 +18,8 @@ void add_image_command(CLI::App& program);
 void add_configure_command(CLI::App& program);
 /// Talks to a unit until its standard input ends.
 void add_connect_command(CLI::App& program);
+/// Drives a unit through a sequence of targets, then stops it.
+void add_commission_command(CLI::App& program);
 void add_ratio_command(CLI::App& program);
 void add_sweep_command(CLI::App& program);
 void add_robust_command(CLI::App& program);
@@ -40,6 +42,7 @@ void add_complete_command(CLI::App& program);
 inline constexpr std::array commands = {
     add_run_command,        add_pil_command,
     add_image_command,      add_connect_command,
+    add_commission_command,
     add_configure_command,  add_ratio_command,
     add_sweep_command,      add_robust_command,
     add_paper_command,      add_work_precision_command,

@@ -158,16 +158,22 @@ std::uint32_t design_number(const std::string& types, const std::vector<ChosenPa
   return encoding::crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
+struct Header {
+  std::string text;
+  std::uint32_t design;
+};
+
 template <class Scalar>
-std::string header_in(const scene::Scene& scene, const configure::ControlDesign& design) {
+Header header_in(const scene::Scene& scene, const configure::ControlDesign& design) {
   const std::vector<ChosenPart> parts = chosen_parts<Scalar>(design);
   std::string types;
   for (const ChosenPart& part : parts) {
     types += fmt::format(",\n                             control::{}", part.text.type);
   }
   const TargetText targets = target_text<Scalar>(scene, design);
-  return fmt::format(
-      R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
+  const std::uint32_t number = design_number(types, parts, design.scales);
+  return {fmt::format(
+              R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
 
 {}
@@ -196,18 +202,18 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-      process::printable(scene.name), includes(parts, ScalarName<Scalar>::header, targets.header),
-      ScalarName<Scalar>::type, types,
-      design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
-                          : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
-      targets.lines, targets.drive, design.scales.carrier_period_s, design.scales.every_periods,
-      scene.drive->delay_periods, scene.drive->interpolation == scene::Interpolation::linear,
-      design_number(types, parts, design.scales));
+              process::printable(scene.name),
+              includes(parts, ScalarName<Scalar>::header, targets.header), ScalarName<Scalar>::type,
+              types,
+              design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
+                                  : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
+              targets.lines, targets.drive, design.scales.carrier_period_s,
+              design.scales.every_periods, scene.drive->delay_periods,
+              scene.drive->interpolation == scene::Interpolation::linear, number),
+          number};
 }
 
-}  // namespace
-
-std::string controller_header(const configure::Experiment& experiment) {
+Header header(const configure::Experiment& experiment) {
   const scene::Scene& scene = experiment.plant;
   const std::optional<configure::ControlDesign>& design = experiment.design;
   if (!design) {
@@ -225,6 +231,16 @@ std::string controller_header(const configure::Experiment& experiment) {
       break;
   }
   return header_in<double>(scene, *design);
+}
+
+}  // namespace
+
+std::string controller_header(const configure::Experiment& experiment) {
+  return header(experiment).text;
+}
+
+std::uint32_t design_number(const configure::Experiment& experiment) {
+  return header(experiment).design;
 }
 
 }  // namespace sonoglide::emulated

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "host_sim/configure/experiment.hpp"
@@ -16,6 +17,10 @@ inline constexpr const char* controller_header_name = "controller_configuration.
 /// scalar, bit for bit what the simulation uses. The same scene gives the same text.
 /// @throws configure::ConfigurationError  an open-loop scene, or a target too late for an image
 std::string controller_header(const configure::Experiment& experiment);
+
+/// The number by which that header tells its design from others.
+/// @throws configure::ConfigurationError  likewise
+std::uint32_t design_number(const configure::Experiment& experiment);
 
 // The plant of a scene as C++, to be compiled into an image beside the controller.
 

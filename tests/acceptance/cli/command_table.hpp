@@ -8,7 +8,7 @@
 namespace sonoglide::acceptance {
 
 /// What it takes to run a command to its end.
-enum class Effort { instant, seconds, emulator, device };
+enum class Effort { instant, seconds, emulator, device /* before the scene */ };
 
 struct Command {
   std::string name;                  ///< behind that of its group, where it is in one
@@ -50,7 +50,15 @@ inline const std::vector<Command> command_table = {
      {},
      {},
      Effort::emulator},
-    {"connect", "", "measured.csv", {"--quiet"}, "", {}, {}, Effort::device},
+    {"connect", "", "", {"--quiet"}, "", {}, {}, Effort::device},
+    {"commission",
+     "closed.toml",
+     "",
+     {"--set", "--out", "--quiet"},
+     "out/closed_commission",
+     {},
+     {"commissioned.toml"},
+     Effort::device},
     {"configure",
      "closed.toml",
      "",

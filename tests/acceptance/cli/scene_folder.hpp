@@ -58,7 +58,9 @@ class SceneFolder : public ScratchFolder {
 
 /// The words of a command with another scene than the table's.
 inline std::string words_with_scene(const Command& command, const std::string& scene) {
-  return command.name + " " + scene + " " + command.arguments;
+  // No serial device.
+  const char* const device = command.effort == Effort::device ? " measured.csv" : "";
+  return command.name + device + " " + scene + " " + command.arguments;
 }
 
 inline std::string words(const Command& command) {

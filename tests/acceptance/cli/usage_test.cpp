@@ -63,7 +63,7 @@ TEST(UsageTest, AnUnknownCommandIsNamed) {
   expect_refused(
       "swep a.toml",
       "swep is no command; did you mean sweep?\n"
-      "a.toml is no command; allowed: run, pil, image, connect, configure, ratio, sweep, "
+      "a.toml is no command; allowed: run, pil, image, connect, commission, configure, ratio, sweep, "
       "robust, paper, work-precision, stability, arithmetic, design, identify, fmu, schema, "
       "completion");
 }

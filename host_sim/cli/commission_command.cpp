@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/options.hpp"
+#include "host_sim/configure/controller_parameters.hpp"
+#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/printable.hpp"
+#include "host_sim/process/serial_port.hpp"
+#include "host_sim/studies/identify/plant/study.hpp"
+#include "host_sim/unit/plant_traces.hpp"
+#include "host_sim/unit/unit_link.hpp"
+
+namespace sonoglide::cli {
+namespace {
+
+namespace plant = identify::plant;
+
+struct CommissionOptions {
+  std::string device;
+  SceneOptions scene;
+  StudyOptions study;
+};
+
+std::vector<std::uint32_t> in_millionths(const experiment::Experiment& experiment) {
+  const bool is_force = experiment.nominal.controller->holds_force();
+  const double full_scale = is_force ? experiment.design->scales.force_N : 1.0;
+  std::vector<std::uint32_t> all;
+  for (const double target : plant::targets(experiment.nominal)) {
+    all.push_back(static_cast<std::uint32_t>(std::lround(1e6 * target / full_scale)));
+  }
+  return all;
+}
+
+std::vector<plant::Stretch> stretches_of(const std::vector<unit::RecordedTrace>& traces) {
+  std::vector<plant::Stretch> all;
+  for (const unit::RecordedTrace& trace : traces) {
+    plant::Stretch& stretch = all.emplace_back();
+    stretch.name = all.size() == 1
+                       ? "Undriven"
+                       : fmt::format("Target {:.6g}", trace.records.back().target / 1e6);
+    stretch.before = trace.before;
+    for (const link::TraceRecord& record : trace.records) {
+      stretch.steps.push_back(
+          {record.friction_force, record.sliding_velocity, record.amplitude, record.other});
+    }
+  }
+  return all;
+}
+
+plant::PlantStudy study(const CommissionOptions& options, const experiment::Experiment& experiment,
+                        const std::function<void(double)>& progress) {
+  process::SerialPort port(options.device);
+  unit::UnitLink link(port);
+  if (!unit::has_design(link, emulated::design_number(experiment))) {
+    throw process::ProcessError(fmt::format(
+        "{}: the unit has another design than the scene; required: the scene that its image was "
+        "built from",
+        process::printable(options.device)));
+  }
+  constexpr double recording = 0.5;  // of the work
+  const auto traces = unit::record_plant(link, in_millionths(experiment),
+                                         [&](double part) { progress(recording * part); });
+  return plant::study(experiment, stretches_of(traces),
+                      [&](double part) { progress(recording + (1.0 - recording) * part); });
+}
+
+/// Throws scene_file::SceneError, process::ProcessError, process::FileError; nothing was written then.
+void commission(const CommissionOptions& options) {
+  const SceneInput input(options.scene);
+  const experiment::Experiment experiment = input.read();
+  input.with_places([&] { plant::require_identifiable(experiment); });
+  run_study(
+      options.study, output_folder(options.study.out, experiment.nominal.name, "_commission"),
+      {"report.html", "identify.json", "fit.csv", "commissioned.toml"},
+      [&](const auto& progress) { return study(options, experiment, progress); }, plant::report);
+}
+
+}  // namespace
+
+void add_commission_command(CLI::App& program) {
+  const auto options = std::make_shared<CommissionOptions>();
+  CLI::App* command = program.add_subcommand(
+      "commission",
+      "A running unit records its plant while it drives, and the scene's plant is fitted to that");
+  command->add_option("device", options->device, "Serial device of the unit")
+      ->required()
+      ->type_name("DEVICE");
+  add_scene_options(*command, options->scene);
+  add_study_options(*command, options->study,
+                    "commissioned.toml, identify.json, fit.csv and report.html [out/<scene "
+                    "name>_commission]");
+  command->callback([options] { commission(*options); });
+}
+
+}  // namespace sonoglide::cli

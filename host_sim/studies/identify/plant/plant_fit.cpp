@@ -1,0 +1,145 @@
+#include "host_sim/studies/identify/plant/plant_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "host_sim/studies/identify/least_squares.hpp"
+#include "host_sim/studies/identify/plant/plant_problem.hpp"
+#include "host_sim/studies/identify/plant/plant_search.hpp"
+#include "host_sim/studies/identify/plant/uncertainty.hpp"
+
+namespace sonoglide::identify::plant {
+namespace {
+
+constexpr double open = std::numeric_limits<double>::quiet_NaN();
+
+/// The friction limit follows from the readings without a drive, whatever else the plant is.
+Eigen::VectorXd with_undriven_friction(const PlantProblem& problem,
+                                       const configure::Experiment& nominal,
+                                       const Stretch& undriven) {
+  Eigen::VectorXd start = problem.start();
+  const auto steps = static_cast<Eigen::Index>(undriven.steps.size());
+  const double measured = readings(undriven).mean();
+  const double modelled =
+      modelled_readings(*problem.plant(start), *nominal.design, undriven, steps).mean();
+  const Eigen::Index friction = problem.index_of("friction.coefficient");
+  if (friction >= 0 && measured / modelled > 0.0) {
+    start(friction) += std::log(measured / modelled);
+  }
+  return start;
+}
+
+/// A logarithm that is told no better than this leaves its number open: a factor of ten.
+const double most_half_width = 0.5 * std::log(10.0);
+
+struct Interval {
+  double low;
+  double high;
+};
+
+Interval interval(const Unknown& unknown, double value, double half_width) {
+  return unknown.unit > 0.0
+             ? Interval{value - half_width * unknown.unit, value + half_width * unknown.unit}
+             : Interval{value * std::exp(-half_width), value * std::exp(half_width)};
+}
+
+void add_estimate(const Unknown& unknown, double value, const Interval& interval, PlantFit& found) {
+  Identification& told = found.identification;
+  const bool may_be_0 = unknown.unit > 0.0;
+  const auto [low, high] = interval;
+  if (may_be_0 ? low > 0.0 : std::log(high / low) <= 2.0 * most_half_width) {
+    told.parameters.push_back({unknown.key, value, low, high, may_be_0});
+    if (unknown.stated < low || unknown.stated > high) {
+      found.changed.emplace_back(unknown.key, value);
+    }
+  } else {
+    const bool bounded = high < unknown.most;
+    told.parameters.push_back({unknown.key, open, open, bounded ? high : open, may_be_0});
+    told.cannot_tell.push_back(
+        bounded ? fmt::format("{}: no more than that it is below {:.3g}.", unknown.key, high)
+                : fmt::format("{}: the traces leave it open by more than a factor of ten.",
+                              unknown.key));
+  }
+}
+
+/// @param possible  parameters that the readings do not tell from the fit's
+void add_estimates(const PlantProblem& problem, const LeastSquaresFit& fit,
+                   const std::vector<Eigen::VectorXd>& possible, const Deviations& deviations,
+                   PlantFit& found) {
+  for (std::size_t i = 0; i < problem.unknowns().size(); ++i) {
+    const Unknown& unknown = problem.unknowns()[i];
+    const double half = deviations.student * deviations.of_parameters(static_cast<Eigen::Index>(i));
+    Interval all = interval(unknown, problem.value(fit.parameters, i), half);
+    for (const Eigen::VectorXd& parameters : possible) {
+      const Interval its = interval(unknown, problem.value(parameters, i), half);
+      all = {std::min(all.low, its.low), std::max(all.high, its.high)};
+    }
+    add_estimate(unknown, problem.value(fit.parameters, i), all, found);
+  }
+  Identification& told = found.identification;
+  const auto n = static_cast<Eigen::Index>(problem.unknowns().size());
+  const Eigen::MatrixXd correlations =
+      identify::correlations(deviations.covariance.topLeftCorner(n, n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    told.correlations.names.push_back(problem.unknowns()[static_cast<std::size_t>(i)].key);
+    told.correlations.rows.emplace_back(correlations.row(i).begin(), correlations.row(i).end());
+  }
+}
+
+void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) {
+  Identification& told = found.identification;
+  const double rms = std::sqrt(fit.sum_of_squares / static_cast<double>(fit.residuals.size()));
+  told.residual_rms = rms / std::abs(undriven);
+  constexpr double much = 2.0;
+  append(
+      told.warnings,
+      {{rms > much * found.expected_rms,
+        fmt::format(
+            "The residuals are {:.3g} of the undriven friction, {:.3g} times what the scene's "
+            "[sensor] makes them: the sensor is noisier than stated, or the plant is not what the "
+            "scene's laws describe, and then the intervals do not hold.",
+            told.residual_rms, rms / found.expected_rms)},
+       {!fit.converged, "The fit has not converged: no value is sure."}});
+}
+
+}  // namespace
+
+PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
+                   const std::function<void(double)>& progress) {
+  const Expected expected = plant::expected(nominal.nominal.sensor);
+  const PlantProblem problem(nominal, stretches);
+  LeastSquaresFit fit =
+      best_fit(problem, with_undriven_friction(problem, nominal, stretches.front()),
+               [&](double part) { progress(0.5 * part); });
+  std::optional<SpringScan> scan;
+  if (!swings_are_plain(problem, fit, expected.deviation())) {
+    scan.emplace(problem, fit);
+    const LeastSquaresFit another = problem.fit(scan->best(), PlantProblem::all_steps);
+    if (another.sum_of_squares < fit.sum_of_squares) {
+      fit = problem.polished(another);
+    }
+  }
+  progress(1.0);
+  PlantFit found;
+  found.identification.subject = "plant";
+  found.identification.model = "the plant of the scene";
+  found.expected_rms = expected.deviation();
+  const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
+  add_estimates(problem, fit,
+                scan ? scan->possible(fit, deviations) : std::vector<Eigen::VectorXd>(), deviations,
+                found);
+  add_warnings(fit, readings(stretches.front()).mean(), found);
+  Eigen::Index first = 0;
+  for (const Stretch& each : stretches) {
+    const auto n = static_cast<Eigen::Index>(each.steps.size());
+    found.modelled.emplace_back(readings(each) - fit.residuals.segment(first, n));
+    first += n;
+  }
+  return found;
+}
+
+}  // namespace sonoglide::identify::plant

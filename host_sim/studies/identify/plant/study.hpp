@@ -1,0 +1,46 @@
+/// The identification of the plant that a unit drives: what it is asked for, and what comes of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host_sim/configure/experiment.hpp"
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/report/step_metrics.hpp"
+#include "host_sim/studies/identify/plant/plant_fit.hpp"
+#include "host_sim/studies/identify/plant/stretch.hpp"
+
+namespace sonoglide::identify::plant {
+
+/// @throws configure::ConfigurationError  what of a scene keeps its plant from being identified while it is driven
+void require_identifiable(const configure::Experiment& experiment);
+
+/// Targets that a unit of the scene is given one after the other, from the first on: steps between a weak
+/// drive and the strongest of the scene's own targets, up and down, so that each excites the natural mode.
+std::vector<double> targets(const scene::Scene& scene);
+
+/// Of a target step of the scene, on the plant that was found.
+struct StepComparison {
+  report::StepMetrics designed;      ///< with the controller of the scene as it is
+  report::StepMetrics commissioned;  ///< with one that is designed for the plant that was found
+};
+
+struct PlantStudy {
+  std::string name;  ///< of the scene
+  std::vector<Stretch> stretches;
+  double full_scale_N = 0.0;  ///< of the readings
+  PlantFit fit;
+  std::vector<StepComparison> steps;  ///< none where a loop could not be computed
+  std::string scene;  ///< as a file, with what was found; empty where it would be refused
+};
+
+/// @param experiment  identifiable
+/// @param stretches   the first of them undriven
+PlantStudy study(const configure::Experiment& experiment, std::vector<Stretch> stretches,
+                 const std::function<void(double)>& progress);
+
+/// report.html, identify.json, fit.csv and commissioned.toml.
+output::StudyReport report(const PlantStudy& study);
+
+}  // namespace sonoglide::identify::plant

@@ -1,0 +1,37 @@
+/// The traces by which the plant of a unit is identified.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "firmware/link/trace_messages.hpp"
+#include "host_sim/unit/unit_link.hpp"
+
+namespace sonoglide::unit {
+
+/// A trace that was read.
+struct RecordedTrace {
+  std::size_t before;  ///< records of the steps before what triggered it
+  std::vector<link::TraceRecord> records;
+};
+
+/// Whether a unit is that of a controller: the number that it tells is that of the controller's design with
+/// its parameters, as it lists them.
+/// @param controller  as emulated::design_number() has it
+/// @throws process::ProcessError  the unit does not answer
+bool has_design(UnitLink& unit, std::uint32_t controller);
+
+/// Stops the unit and records it without a drive, then starts it and records its step to each target but the
+/// first, once it has settled at the one before. At the end, and whatever happens, the unit is stopped. It
+/// keeps its limits and finds its faults as ever.
+///
+/// @param targets   more than one; millionths, as app::Parameter::target
+/// @param progress  is told the part done
+/// @return          the undriven one first
+/// @throws process::ProcessError  the unit does not answer, refuses, has no trace or finds a fault
+std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<std::uint32_t>& targets,
+                                        const std::function<void(double)>& progress);
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,72 @@
+/// Plants at random, as they are found by the readings of 12 bits of a unit that was designed for another.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/studies/identify/plant/study.hpp"
+#include "tests/common/csv/csv.hpp"
+#include "tests/host_sim/studies/identify/plant/commissioned/commissioned.hpp"
+#include "tests/host_sim/studies/identify/plant/commissioned/recorded.hpp"
+
+namespace sonoglide::identify::plant::plants_test {
+namespace {
+
+csv::Table recorded_plants() {
+  std::ifstream stream(PLANTS);
+  return csv::Table(std::string(std::istreambuf_iterator<char>(stream), {}), "plants.csv");
+}
+
+TEST(IdentifiedPlants, SettleAsIfTheirPlantWereKnown) {
+  const csv::Table table = recorded_plants();
+  double commissioned = 0.0;
+  double exact = 0.0;
+  for (const csv::Row& row : table.rows()) {
+    commissioned += row.number("prompt_commissioned");
+    exact += row.number("prompt_exact");
+  }
+  EXPECT_GE(commissioned, 0.98 * exact);
+}
+
+TEST(IdentifiedPlants, AreInsideTheirIntervals) {
+  const csv::Table table = recorded_plants();
+  std::size_t covered = 0;
+  for (const csv::Row& row : table.rows()) {
+    for (const char digit : row.text("covered")) {
+      covered += digit == '1' ? 1 : 0;
+    }
+    EXPECT_EQ(row.text("warned"), "0") << row.text("seed");
+  }
+  EXPECT_GE(static_cast<double>(covered), 0.95 * 3.0 * static_cast<double>(table.rows().size()));
+}
+
+TEST(IdentifiedPlants, OneIsAsRecorded) {
+  const csv::Table table = recorded_plants();
+  constexpr std::uint64_t seed = 2;
+  const csv::Row& row = table.rows().at(seed);
+  const test::Commissioned found = test::commissioned(SCENES "target_step.toml", seed);
+  EXPECT_NEAR(found.truth[0], row.number("stiffness"), 1e-5);
+  EXPECT_NEAR(found.error[0], row.number("stiffness_error"), 1e-4);
+  EXPECT_NEAR(found.error[1], row.number("coefficient_error"), 1e-3);
+  EXPECT_NEAR(found.error[2], row.number("contact_stiffness_error"), 1e-2);
+  EXPECT_EQ(found.commissioned, row.number("prompt_commissioned"));
+}
+
+/// Noise hides the natural mode: many springs are possible, and the interval has them.
+TEST(IdentifiedPlants, WhatNoiseHidesIsNotToldTightly) {
+  const configure::Experiment scene =
+      experiment::read_file(SCENES "noisy_sensor.toml", {"sensor.seed=4"});
+  const PlantStudy found =
+      study(scene, test::recorded(scene, targets(scene.nominal), 1024, 32), [](double) {});
+  const Estimate& spring = found.fit.identification.parameters.front();
+  EXPECT_EQ(spring.name, "plant.stiffness_N_per_m");
+  EXPECT_LT(spring.low_95, 133e6);
+  EXPECT_GT(spring.high_95, 133e6);
+  EXPECT_TRUE(found.fit.changed.empty());
+}
+
+}  // namespace
+}  // namespace sonoglide::identify::plant::plants_test

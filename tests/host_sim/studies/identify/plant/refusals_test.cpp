@@ -1,0 +1,41 @@
+/// Scenes whose plant cannot be found while it is driven, by the key that says why.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/studies/identify/plant/study.hpp"
+
+namespace sonoglide::identify::plant::refusals_test {
+namespace {
+
+std::string key_of_refusal(const std::string& scene, const std::vector<std::string>& changes = {}) {
+  try {
+    require_identifiable(experiment::read_file(SCENES + scene, changes));
+  } catch (const configure::ConfigurationError& error) {
+    return error.key();
+  }
+  return "none";
+}
+
+TEST(RequireIdentifiable, NamesTheKeyInTheWay) {
+  EXPECT_EQ(key_of_refusal("target_step.toml"), "none");
+  EXPECT_EQ(key_of_refusal("table_1_open_loop.toml"), "controller");
+  EXPECT_EQ(key_of_refusal("wire_bonder.toml"), "sensor.force");
+  EXPECT_EQ(key_of_refusal("fingertip.toml"), "load");
+  EXPECT_EQ(key_of_refusal("speed_ramp.toml"), "sliding.profile");
+  EXPECT_EQ(key_of_refusal("friction_jump.toml"), "friction.coefficient_profile");
+  EXPECT_EQ(key_of_refusal("langevin.toml"), "plant.stiffness_profile");
+  EXPECT_EQ(key_of_refusal("target_step.toml", {"controller.relearn_every_s=0.01"}),
+            "controller.relearn_every_s");
+}
+
+TEST(Targets, StepBetweenAWeakDriveAndTheStrongest) {
+  const configure::Experiment scene = experiment::read_file(SCENES "target_step.toml");
+  EXPECT_EQ(targets(scene.nominal), (std::vector<double>{0.9, 0.4, 0.9, 0.65, 0.4}));
+}
+
+}  // namespace
+}  // namespace sonoglide::identify::plant::refusals_test
