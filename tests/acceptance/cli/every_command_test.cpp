@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, EveryCommandTest, testing::ValuesIn(command_t
 class SceneCommandTest : public CommandTest {};
 
 TEST_P(SceneCommandTest, RequiresItsScene) {
-  expect_usage_error(command().name + " " + command().arguments, "scene is required");
+  expect_usage_error(words_with_scene(command(), ""), "scene is required");
 }
 
 TEST_P(SceneCommandTest, NamesASceneThatIsMissing) {
