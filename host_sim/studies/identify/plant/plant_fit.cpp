@@ -94,6 +94,8 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) 
   Identification& told = found.identification;
   const double rms = std::sqrt(fit.sum_of_squares / static_cast<double>(fit.residuals.size()));
   told.residual_rms = rms / std::abs(undriven);
+  const double excess = std::max(rms * rms - found.expected_rms * found.expected_rms, 0.0);
+  told.misfit = std::sqrt(excess) / std::abs(undriven);
   constexpr double much = 2.0;
   append(
       told.warnings,

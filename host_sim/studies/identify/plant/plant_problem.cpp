@@ -136,8 +136,10 @@ Eigen::VectorXd PlantProblem::residuals(const std::optional<scene::Scene>& plant
     try {
       Eigen::VectorXd residuals = readings(part.stretch).head(part.steps) -
                                   modelled_readings(*plant, design, part.stretch, part.steps, free);
-      // They answer to drives that were not recorded.
-      residuals.head(std::min(part.steps, unrecorded_steps)).setZero();
+      if (part.swing >= 0) {
+        // They answer to drives that were not recorded.
+        residuals.head(std::min(part.steps, unrecorded_steps)).setZero();
+      }
       return residuals;
     } catch (const loop::ComputationError&) {
       // As if there were no such plant.

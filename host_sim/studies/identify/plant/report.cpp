@@ -53,9 +53,10 @@ output::Chart chart(const PlantStudy& study, std::size_t index) {
 
 std::string change_sentence(const PlantStudy& study) {
   if (study.fit.changed.empty()) {
-    return "Every value of the scene is inside the interval that was found: nothing is to be changed.";
+    return "The intervals have every value of the scene: commissioned.toml has the same.";
   }
-  std::string words = "Outside the interval that was found, and so changed in commissioned.toml:";
+  std::string words =
+      "The intervals do not have these values of the scene, and commissioned.toml has others:";
   for (const auto& [key, value] : study.fit.changed) {
     words += fmt::format(" {} = {:.6g},", key, value);
   }

@@ -1,4 +1,4 @@
-/// Writes plants.csv: what 500 random plants are identified as. An argument is the number of plants.
+/// Writes plants.csv: what random plants are identified as. An argument is their number, 500 without one.
 #include <cstdint>
 #include <cstdio>
 #include <string>
