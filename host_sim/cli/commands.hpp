@@ -40,16 +40,25 @@ void add_complete_command(CLI::App& program);
 
 /// In the order of the help.
 inline constexpr std::array commands = {
-    add_run_command,        add_pil_command,
-    add_image_command,      add_connect_command,
+    add_run_command,
+    add_pil_command,
+    add_image_command,
+    add_connect_command,
     add_commission_command,
-    add_configure_command,  add_ratio_command,
-    add_sweep_command,      add_robust_command,
-    add_paper_command,      add_work_precision_command,
-    add_stability_command,  add_arithmetic_command,
-    add_design_command,     add_identify_command,
-    add_fmu_command,        add_schema_command,
-    add_completion_command, add_complete_command,
+    add_configure_command,
+    add_ratio_command,
+    add_sweep_command,
+    add_robust_command,
+    add_paper_command,
+    add_work_precision_command,
+    add_stability_command,
+    add_arithmetic_command,
+    add_design_command,
+    add_identify_command,
+    add_fmu_command,
+    add_schema_command,
+    add_completion_command,
+    add_complete_command,
 };
 
 }  // namespace sonoglide::cli
