@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
 #include "host_sim/studies/identify/plant/plant_problem.hpp"
 #include "host_sim/studies/identify/plant/plant_search.hpp"
@@ -18,16 +19,29 @@ namespace {
 constexpr double open = std::numeric_limits<double>::quiet_NaN();
 
 /// The friction limit follows from the readings without a drive, whatever else the plant is.
+/// @throws loop::ComputationError  they are those of no sliding contact
 Eigen::VectorXd with_undriven_friction(const PlantProblem& problem,
                                        const configure::Experiment& nominal,
                                        const Stretch& undriven) {
   Eigen::VectorXd start = problem.start();
   const auto steps = static_cast<Eigen::Index>(undriven.steps.size());
+  const double full_scale_N = nominal.design->scales.force_N;
   const double measured = readings(undriven).mean();
   const double modelled =
       modelled_readings(*problem.plant(start), *nominal.design, undriven, steps).mean();
-  const Eigen::Index friction = problem.index_of("friction.coefficient");
-  if (friction >= 0 && measured / modelled > 0.0) {
+  constexpr double least = 0.01;  // of what the scene has
+  if (std::abs(modelled) * full_scale_N < least * nominal.nominal.friction.limit_N()) {
+    throw loop::ComputationError(
+        "without a drive the sliding velocity reads next to nothing: the plant is to slide while it is "
+        "recorded");
+  }
+  if (measured / modelled < least) {
+    throw loop::ComputationError(fmt::format(
+        "without a drive the friction force reads {:.4g} N where the scene has {:.4g} N: the force sensor is "
+        "wired backwards or dead, or there is no contact",
+        full_scale_N * measured, full_scale_N * modelled));
+  }
+  if (const Eigen::Index friction = problem.index_of("friction.coefficient"); friction >= 0) {
     start(friction) += std::log(measured / modelled);
   }
   return start;

@@ -28,6 +28,7 @@ struct PlantFit {
 /// @param nominal    of the scene that the recorded controller was designed for
 /// @param stretches  the first of them undriven
 /// @param progress   is told the part done
+/// @throws loop::ComputationError  the undriven readings are those of no sliding contact
 PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
                    const std::function<void(double)>& progress);
 

@@ -37,6 +37,7 @@ struct PlantStudy {
 
 /// @param experiment  identifiable
 /// @param stretches   the first of them undriven
+/// @throws loop::ComputationError  as fit_plant()
 PlantStudy study(const configure::Experiment& experiment, std::vector<Stretch> stretches,
                  const std::function<void(double)>& progress);
 

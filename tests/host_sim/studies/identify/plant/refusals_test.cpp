@@ -6,7 +6,9 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/plant/study.hpp"
+#include "tests/host_sim/studies/identify/plant/commissioned/recorded.hpp"
 
 namespace sonoglide::identify::plant::refusals_test {
 namespace {
@@ -30,6 +32,28 @@ TEST(RequireIdentifiable, NamesTheKeyInTheWay) {
   EXPECT_EQ(key_of_refusal("langevin.toml"), "plant.stiffness_profile");
   EXPECT_EQ(key_of_refusal("target_step.toml", {"controller.relearn_every_s=0.01"}),
             "controller.relearn_every_s");
+}
+
+std::string reason_against(const std::vector<std::string>& unit) {
+  const configure::Experiment scene = experiment::read_file(SCENES "target_step.toml");
+  const configure::Experiment recorded = experiment::read_file(SCENES "target_step.toml", unit);
+  try {
+    study(scene, test::recorded(recorded, {0.9, 0.4}, 64, 32), [](double) {});
+  } catch (const loop::ComputationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Study, SensorsThatLieAreNamed) {
+  EXPECT_NE(reason_against({"sensor.force_gain=-1"})
+                .find("reads -0.01962 N where the scene has 0.01962 N"),
+            std::string::npos);
+  EXPECT_NE(reason_against({"sensor.force_gain=0"}).find("wired backwards or dead"),
+            std::string::npos);
+  EXPECT_NE(
+      reason_against({"sensor.velocity_gain=0"}).find("the sliding velocity reads next to nothing"),
+      std::string::npos);
 }
 
 TEST(Targets, StepBetweenAWeakDriveAndTheStrongest) {
