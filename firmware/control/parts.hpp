@@ -36,7 +36,8 @@ struct Parts {
                                      ///< TabulatedFeedforward
   using Slew = SlewT;                ///< NoSlewLimit | SlewLimit
   using Shaper = ShaperT;            ///< NoShaping | NotchShaper
-  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator | ScalingRegulator
+  using Regulator = RegulatorT;      ///< NoFeedback | IntegralRegulator | ScalingRegulator |
+                                     ///< AdaptiveRegulator
   using Relearning = RelearningT;    ///< NoRelearning | PeriodicRelearning | FrictionTracking
   using Vibration =
       VibrationT;        ///< FedForward | SensorlessVibration | DampedVibration | ResonantVibration

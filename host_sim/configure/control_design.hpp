@@ -43,6 +43,15 @@ inline constexpr int max_reading_delay = max_drive_delay + 64;
 /// The longest delay of a target to its reading: drive and sensor at their longest, and the notch.
 inline constexpr int max_reference_delay = 1 + 16 + 64 + max_notch_span / 2;
 
+/// How the gain of the feedback follows the swings of the friction ratio (control::AdaptiveRegulator).
+struct AdaptiveGain {
+  double least_part = 1.0;   ///< of the integral's gain
+  double shrink = 0.5;       ///< by each swing
+  double growth = 0.0;       ///< by each period of a lasting error
+  double small_error = 0.0;  ///< that does not count, on base 2
+  std::uint16_t patience_periods = 0;
+};
+
 /// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2. A
 /// "period" in a name here is one of the controller, controller.every_periods carrier periods.
 struct ControlDesign {
@@ -54,8 +63,9 @@ struct ControlDesign {
   double smallest_friction = 0.0;                     ///< that may be learnt
   double contact_force = 0.0;  ///< nominal Kt times the vibration amplitude at full drive
   double speed_floor = 0.0;
-  double lead_periods = 0.0;    ///< from a sample to the middle of its effect
-  double integral_gain = 0.0;   ///< per period
+  double lead_periods = 0.0;   ///< from a sample to the middle of its effect
+  double integral_gain = 0.0;  ///< per period
+  std::optional<AdaptiveGain> adaptive_gain;
   double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per period
   std::uint8_t reference_delay_periods = 1;
   std::uint16_t hold_periods = 0;

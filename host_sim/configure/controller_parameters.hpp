@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "firmware/control/controller.hpp"
+#include "firmware/control/feedback/adaptive_regulator.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
@@ -109,6 +110,19 @@ typename control::ScalingRegulator<Scalar, MaxDelay>::Parameters parameters(
     const ControlDesign& design, Type<control::ScalingRegulator<Scalar, MaxDelay>> /*part*/) {
   return {parameters(design, Type<control::IntegralRegulator<Scalar, MaxDelay>>{}),
           design.resonance()->scales};
+}
+
+/// With the gain of an IntegralRegulator throughout where the design has no other.
+template <class Scalar, int MaxDelay>
+typename control::AdaptiveRegulator<Scalar, MaxDelay>::Parameters parameters(
+    const ControlDesign& design, Type<control::AdaptiveRegulator<Scalar, MaxDelay>> /*part*/) {
+  const AdaptiveGain adaptive = design.adaptive_gain.value_or(AdaptiveGain{});
+  return {parameters(design, Type<control::IntegralRegulator<Scalar, MaxDelay>>{}),
+          scaled<Scalar>(adaptive.least_part * design.integral_gain),
+          scaled<Scalar>(adaptive.shrink),
+          scaled<Scalar>(adaptive.growth),
+          scaled<Scalar>(adaptive.small_error),
+          adaptive.patience_periods};
 }
 
 /// Without any pause where the design has none.

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "firmware/control/feedback/adaptive_regulator.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/force_sensing.hpp"
@@ -127,11 +128,15 @@ struct RegulatorParts {
   using None = control::NoFeedback<Scalar>;
   using Integral = control::IntegralRegulator<Scalar, max_reference_delay>;
   using Scaling = control::ScalingRegulator<Scalar, max_reference_delay>;
-  using Part = Choice<None, Integral, Scaling>;
+  using Adaptive = control::AdaptiveRegulator<Scalar, max_reference_delay>;
+  using Part = Choice<None, Integral, Scaling, Adaptive>;
 
   static Part chosen(const ControlDesign& design) {
     if (!design.senses_force || design.integral_gain == 0.0) {
       return Part(Type<None>{});
+    }
+    if (design.adaptive_gain) {
+      return Part(Type<Adaptive>{});
     }
     const bool scales = design.resonance() != nullptr && design.resonance()->scales;
     return scales ? Part(Type<Scaling>{}) : Part(Type<Integral>{});

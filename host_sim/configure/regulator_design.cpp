@@ -48,6 +48,29 @@ double gain_behind_delay(double periods) {
   return std::min(0.25, 2.0 / 3.0 * numeric::sin(numeric::two_pi / (8.0 * periods + 4.0)));
 }
 
+/// Harmonics of the friction drive a natural mode beside a multiple of the carrier, which keeps what it is
+/// given unless its damping takes it.
+bool keeps_harmonics(const scene::Scene& scene, const NaturalMode& mode) {
+  constexpr double beside = 0.1;  // carrier frequencies
+  constexpr double damped = 0.2;  // part of its free vibration that the mode loses in a step
+  const double per_carrier = mode.rotation / numeric::two_pi / scene.controller->every_periods;
+  const double multiple = std::round(per_carrier);
+  return multiple >= 2.0 && std::abs(per_carrier - multiple) < beside && 1.0 - mode.decay < damped;
+}
+
+/// A limit cycle behind a delay of D periods keeps the sign of its error for 2 D + 1 of them; twice that, and two
+/// more, is an error that lasts.
+AdaptiveGain gain_that_adapts(const scene::Scene& scene, double delay) {
+  constexpr double part_of_band = 0.25;
+  AdaptiveGain found;
+  found.least_part = 0.05;
+  found.shrink = 0.7;
+  found.growth = 0.1;
+  found.small_error = 0.5 * part_of_band * scene.run.settling_band;
+  found.patience_periods = whole_periods(4.0 * (delay + 1.0));
+  return found;
+}
+
 /// How long the integral waits for a changed target, and then does not.
 void set_waiting(const scene::Scene& scene, double delay, double filter, ControlDesign& design) {
   constexpr double filter_settling = 4.0;  // time constants more: 0.7 % of a step is left
@@ -105,6 +128,9 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
   const double behind_delay = gain_behind_delay(delay);
   design.integral_gain =
       found.free_mode ? std::min(behind_delay, gain_beside_free_mode(scene, mode)) : behind_delay;
+  if (found.ramped() && keeps_harmonics(scene, mode)) {
+    design.adaptive_gain = gain_that_adapts(scene, delay);
+  }
   const double ripple = found.notch ? found.notch->ripple : 0.0;
   found.missing_damping_N_s_per_m =
       missing_damping_N_s_per_m(found.ramped() && quiet ? found.left : ripple,

@@ -50,6 +50,13 @@ PartText part_text(configure::Type<control::IntegralRegulator<Scalar, MaxDelay>>
 }
 
 template <class Scalar, int MaxDelay, class Parameters>
+PartText part_text(configure::Type<control::AdaptiveRegulator<Scalar, MaxDelay>> /*part*/,
+                   const Parameters& parameters) {
+  return part_text<control::AdaptiveRegulator<Scalar, MaxDelay>>(
+      fmt::format(", {}", parameters.delay_periods));
+}
+
+template <class Scalar, int MaxDelay, class Parameters>
 PartText part_text(configure::Type<control::ScalingRegulator<Scalar, MaxDelay>> /*part*/,
                    const Parameters& parameters) {
   return part_text<control::ScalingRegulator<Scalar, MaxDelay>>(

@@ -123,7 +123,7 @@ std::unique_ptr<ControlPort> make_tracking_control(const ControlDesign& design) 
             control::Parts<Scalar, control::TrustedFriction<Scalar>,
                            control::TrackedDahlFeedforward<Scalar>, control::SlewLimit<Scalar>,
                            typename decltype(shaper)::type,
-                           control::IntegralRegulator<Scalar, configure::max_reference_delay>,
+                           control::AdaptiveRegulator<Scalar, configure::max_reference_delay>,
                            control::FrictionTracking<Scalar>>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
@@ -182,7 +182,7 @@ std::unique_ptr<ControlPort> make_control(const configure::ControlDesign& design
             control::Parts<Scalar, typename decltype(friction)::type,
                            typename decltype(feedforward)::type, typename Chosen::Slew,
                            typename decltype(shaper)::type,
-                           control::IntegralRegulator<Scalar, configure::max_reference_delay>,
+                           control::AdaptiveRegulator<Scalar, configure::max_reference_delay>,
                            typename Chosen::Relearning, control::FedForward<Scalar>,
                            control::ForceSensor, control::ForceTarget<Scalar>>;
         return std::make_unique<InProcessControl<Parts>>(design);

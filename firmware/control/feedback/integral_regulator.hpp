@@ -146,6 +146,14 @@ class IntegralRegulator {
     }
   }
 
+ protected:
+  /// Reference less measured ratio, of the last proposal.
+  Scalar error() const { return error_; }
+  bool held() const { return held_ != 0; }
+  Scalar gain() const { return parameters_.gain; }
+  /// From the next proposal on.
+  void set_gain(Scalar gain) { parameters_.gain = gain; }
+
  private:
   /// The target of delay_periods ago; this one takes its place.
   Scalar delayed(Scalar target) {

@@ -167,7 +167,7 @@ std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_r
   const configure::NominalPlant plant = configure::nominal_plant(nominal);
   const double natural = plant.natural_rad_per_s() / nominal.drive->rate_rad_per_s();
   if (nominal.transducer || nominal.drive->waveform != scene::Waveform::cosine ||
-      !(natural < slow_mode) ||
+      !(natural < configure::slow_mode) ||
       !(natural < configure::fastest_biased_mode(nominal.drive->delay_periods))) {
     return std::nullopt;
   }
@@ -184,6 +184,61 @@ std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_r
     return std::nullopt;  // no such loop
   }
   return biased;
+}
+
+/// As the first target of the scene leaves time for; with the parts of the loop.
+scene::FrictionSource friction_source(const scene::Scene& stated, scene::Scene loop) {
+  loop.controller->target_friction_ratio = stated.controller->target_friction_ratio;
+  loop.controller->target_friction_force_N = stated.controller->target_friction_force_N;
+  loop.run.duration_s = stated.run.duration_s;
+  const configure::ControlDesign design = configure::design_control(loop);
+  if (configure::shortest_calibration_s(loop, design) > 0.0) {
+    return scene::FrictionSource::calibrated;
+  }
+  const bool fed_forward = design.vibration_mode() == scene::VibrationMode::feedforward;
+  return fed_forward && !design.bias && design.maps_friction && !design.holds_force &&
+                 design.map == scene::FrictionMap::dahl
+             ? scene::FrictionSource::tracked
+             : scene::FrictionSource::trusted;
+}
+
+/// Puts the recommended means into a loop that is fed forward.
+void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
+  const configure::RecommendedMeans& means = recommended.means;
+  loop.controller->shaping.reset();
+  loop.drive->interpolation =
+      means.ramped ? scene::Interpolation::linear : scene::Interpolation::step;
+  loop.drive->codes_per_period = means.ramped ? configure::ramp_codes : 1;
+  loop.drive->bias_limit_N = recommended.bias_limit_N;
+  if (means.sensorless) {
+    loop.controller->vibration = scene::VibrationControl::damped;
+  }
+  if (means.sensorless || means.biased) {
+    scene::Arithmetic& arithmetic = loop.controller->arithmetic;
+    arithmetic = arithmetic == scene::Arithmetic::q15 ? scene::Arithmetic::q31 : arithmetic;
+  }
+}
+
+/// @param nominal  a trial at the scene's carrier
+RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nominal,
+                                 double stiffness_range) {
+  const configure::NominalPlant plant = configure::nominal_plant(nominal);
+  const double natural = plant.natural_rad_per_s() / nominal.drive->rate_rad_per_s();
+  RecommendedLoop found;
+  found.means = configure::recommended_means(natural, true);
+  if (found.means.biased) {
+    found.bias_limit_N =
+        configure::wanted_bias_N(plant.friction_N, nominal.drive->max_force_amplitude_N, natural,
+                                 nominal.drive->delay_periods);
+  }
+  equip(nominal, found);
+  try {
+    found.friction = friction_source(stated, nominal);
+    found.plants = try_plants(nominal, stiffness_range);
+  } catch (const configure::ConfigurationError& error) {
+    found.refused = error.what();
+  }
+  return found;
 }
 
 std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
@@ -246,6 +301,7 @@ std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
     study.carriers[i] = carrier_point(tried_at(driven, own_Hz * (1.0 + away)), study);
   });
   study.recommended = recommended_carrier(study);
+  study.recommended_loop = recommended_loop(stated, tried_at(scene, own_Hz), study.stiffness_range);
   study.bias = biased_drive(tried_at(scene, own_Hz), study.stiffness_range);
   return study;
 }

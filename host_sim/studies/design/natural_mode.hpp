@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host_sim/configure/vibration/ramp_design.hpp"
+#include "host_sim/configure/vibration/recommended_means.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::design {
@@ -42,6 +44,16 @@ struct BiasedDrive {
   Tally plants = {};     ///< at the scene's carrier
 };
 
+/// The loop that reaches the most with the force sensor alone, by the nominal mode.
+struct RecommendedLoop {
+  configure::RecommendedMeans means;
+  scene::FrictionSource friction =
+      scene::FrictionSource::trusted;  ///< that the first target leaves time for
+  double bias_limit_N = 0.0;           ///< with a bias
+  Tally plants = {};                   ///< at the scene's carrier, with a friction that is known
+  std::string refused;                 ///< why the scene can have no such loop; empty: it can
+};
+
 struct NaturalModeStudy {
   double natural_Hz = 0.0;
   double range = 0.0;              ///< by which the natural frequency may be off, relative
@@ -59,12 +71,10 @@ struct NaturalModeStudy {
   /// The nearest at which the most plants settle promptly, and the scene's own where no other settles
   /// two more; none if none does.
   std::optional<std::size_t> recommended;
+  RecommendedLoop recommended_loop;
   std::optional<BiasedDrive>
       bias;  ///< of a mode below slow_mode carriers, under a force of a cosine
 };
-
-/// Below this part of the carrier frequency the friction itself moves the mass, and the drive hardly does.
-inline constexpr double slow_mode = 0.09;
 
 inline constexpr int prompt_periods = 60;  ///< a millisecond at 60 kHz
 

@@ -122,6 +122,40 @@ Advice controller_advice(const NaturalModeStudy& mode) {
                   found)};
 }
 
+std::string keys(const RecommendedLoop& loop) {
+  std::vector<std::string> all;
+  if (loop.means.ramped) {
+    all.emplace_back(fmt::format("drive.interpolation = \"linear\", drive.codes_per_period = {}",
+                                 configure::ramp_codes));
+  }
+  if (loop.means.biased) {
+    all.emplace_back(fmt::format("drive.bias_limit_N = {:.3g}", loop.bias_limit_N));
+  }
+  if (loop.means.sensorless) {
+    all.emplace_back("controller.vibration = \"damped\"");
+  }
+  all.emplace_back(fmt::format("controller.friction = \"{}\"",
+                               scene::name_of(scene::friction_sources, loop.friction)));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// Which loop reaches the most with the force sensor alone.
+Advice recommended_advice(const NaturalModeStudy& mode) {
+  const RecommendedLoop& loop = mode.recommended_loop;
+  if (!loop.refused.empty()) {
+    return {"Recommended",
+            fmt::format("A mode there does best with {}, because {}. This scene cannot have "
+                        "it: {}.",
+                        keys(loop), configure::reason(loop.means.kind), loop.refused)};
+  }
+  return {"Recommended",
+          fmt::format("With the force sensor alone, {}: {}. Of {}, {}.{}", keys(loop),
+                      configure::reason(loop.means.kind), tried(mode), tally_text(loop.plants),
+                      loop.friction == scene::FrictionSource::trusted
+                          ? " The first target is too short for a calibration of the friction."
+                          : "")};
+}
+
 Advice bias_advice(const NaturalModeStudy& mode) {
   return {"Bias",
           fmt::format("Below {:g} carrier frequencies the friction itself moves the mass, which no "
@@ -129,7 +163,8 @@ Advice bias_advice(const NaturalModeStudy& mode) {
                       "period does: drive.bias_limit_N = {:.3g} or more, with "
                       "controller.vibration = \"damped\", best with sensor.vibration = "
                       "\"velocity\". With these of {}, {}.",
-                      slow_mode, mode.bias->limit_N, tried(mode), tally_text(mode.bias->plants))};
+                      configure::slow_mode, mode.bias->limit_N, tried(mode),
+                      tally_text(mode.bias->plants))};
 }
 
 Advice carrier_advice(const NaturalModeStudy& mode) {
@@ -210,7 +245,7 @@ output::Table drives_table(const NaturalModeStudy& mode) {
 }  // namespace
 
 std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
-  std::vector<Advice> all = {mode_advice(mode), controller_advice(mode)};
+  std::vector<Advice> all = {mode_advice(mode), recommended_advice(mode), controller_advice(mode)};
   if (mode.bias) {
     all.push_back(bias_advice(mode));
   }
@@ -266,6 +301,18 @@ ordered_json to_json(const NaturalModeStudy& mode) {
   json["recommended_frequency_Hz"] =
       mode.recommended ? ordered_json(mode.carriers[*mode.recommended].frequency_Hz)
                        : ordered_json(nullptr);
+  const RecommendedLoop& loop = mode.recommended_loop;
+  json["recommended_loop"] = {
+      {"interpolation",
+       scene::name_of(scene::interpolations, loop.means.ramped ? scene::Interpolation::linear
+                                                               : scene::Interpolation::step)},
+      {"codes_per_period", loop.means.ramped ? configure::ramp_codes : 1},
+      {"damped", loop.means.sensorless},
+      {"bias_limit_N", loop.bias_limit_N},
+      {"friction", scene::name_of(scene::friction_sources, loop.friction)},
+      {"settled", loop.plants.settled},
+      {"late", loop.plants.late},
+      {"never", loop.plants.never}};
   if (mode.bias) {
     json["bias"] = {{"limit_N", mode.bias->limit_N},
                     {"settled", mode.bias->plants.settled},

@@ -235,10 +235,6 @@ void draw_model_error(Dice& dice, RandomLoop& loop) {
   loop.model_error = error;
 }
 
-/// Natural over carrier frequency, from which on a sensorless loop tells a mode from the vibration, however
-/// its stiffness is off.
-constexpr double told_mode = 1.03 / 192.0;
-
 /// Lines of a scene. Six digits are enough to be what was drawn, and short enough to be read.
 class SceneText {
  public:
@@ -287,9 +283,10 @@ double nominal_mode_per_carrier(const RandomLoop& loop) {
 bool biased(const RandomLoop& loop, Vibration vibration) {
   switch (vibration) {
     case Vibration::sensorless_biased:  // a sensorless loop does not tell the slowest ones
-      return told_mode < loop.mode_per_carrier && loop.mode_per_carrier < slow_mode;
+      return configure::told_mode < loop.mode_per_carrier &&
+             loop.mode_per_carrier < configure::slow_mode;
     case Vibration::damped_biased:
-      return loop.mode_per_carrier < slow_mode;
+      return loop.mode_per_carrier < configure::slow_mode;
     case Vibration::all_means:
       return means_for(loop).biased;
     default:
@@ -308,7 +305,7 @@ void write_drive(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   }
   if (vibration == Vibration::all_means && means_for(loop).ramped) {
     text.word("interpolation", "linear");
-    text.line("codes_per_period = 8");
+    text.line(fmt::format("codes_per_period = {}", configure::ramp_codes));
   }
 }
 
@@ -392,20 +389,9 @@ double beside_multiple(const RandomLoop& loop) {
                        : std::abs(loop.mode_per_carrier - nearest);
 }
 
-Means means_for(const RandomLoop& loop) {
-  constexpr double beside = 0.1;
-  constexpr double half_turn = 0.02;
-  const double mode = nominal_mode_per_carrier(loop);
-  const double nearest = std::round(mode);
-  const bool multiple = nearest >= 2.0 && std::abs(mode - nearest) < beside;
-  const double part = mode - std::floor(mode);
-  const bool turns_by_half = std::abs(part - 0.5) < half_turn;
-  const bool shows = loop.law != "transverse_coulomb" && loop.law != "normal_coulomb";
-  Means means;
-  means.biased = mode < slow_mode && shows;
-  means.sensorless = shows && !multiple && !turns_by_half && mode > told_mode;
-  means.ramped = !means.sensorless && !means.biased;
-  return means;
+configure::RecommendedMeans means_for(const RandomLoop& loop) {
+  const bool along = loop.law != "transverse_coulomb" && loop.law != "normal_coulomb";
+  return configure::recommended_means(nominal_mode_per_carrier(loop), along);
 }
 
 Cause cause_of(const RandomLoop& loop) {

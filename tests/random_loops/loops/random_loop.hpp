@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "host_sim/configure/vibration/recommended_means.hpp"
+
 namespace sonoglide::random_loops {
 
 /// Where the natural frequency lies, seen from the carrier's.
@@ -119,22 +121,13 @@ enum class Vibration {
   /// The same, seen by a pick-up of 14 bits.
   damped,
   damped_alone,       ///< the same without a force sensor
-  sensorless_biased,  ///< as sensorless, with a bias against a mode below slow_mode
+  sensorless_biased,  ///< as sensorless, with a bias against a mode below configure::slow_mode
   damped_biased,      ///< likewise as damped
   all_means,          ///< with the force sensor alone, what suits the nominal mode, see means_for()
 };
 
-/// Natural over carrier frequency, below which a loop that may has a bias.
-inline constexpr double slow_mode = 0.09;
-
-/// What a loop with all means has, chosen by the nominal mode, the law and the sensors
-/// (firmware/control/vibration.md, Which controller).
-struct Means {
-  bool sensorless = false;
-  bool biased = false;
-  bool ramped = false;  ///< linear, in 8 codes
-};
-Means means_for(const RandomLoop& loop);
+/// What a loop with all means has: what sonoglide design recommends for its nominal mode and its law.
+configure::RecommendedMeans means_for(const RandomLoop& loop);
 
 /// Its scene, TOML that the program reads.
 std::string scene_text(const RandomLoop& loop, Vibration vibration = Vibration::unseen);

@@ -40,6 +40,35 @@ FeedforwardDesign design_of(const scene::Scene& scene) {
   return *design_control(scene).in_mode<FeedforwardDesign>();
 }
 
+TEST(RampDesignTest, GivesFeedbackBesideAMultipleAGainThatAdapts) {
+  for (const double mode : {1.92, 2.0, 2.05, 2.95, 3.08, 4.003}) {
+    const ControlDesign design = design_control(ramped(mode));
+    ASSERT_TRUE(design.adaptive_gain) << mode;
+    // 4 (D + 1), D of a period's answer, the drive's delay, and ramp and notch.
+    EXPECT_EQ(design.adaptive_gain->patience_periods, 4.0 * (3.0 + design.changing_periods()))
+        << mode;
+    EXPECT_LT(design.adaptive_gain->least_part, 1.0);
+    // A quarter of the band, on base 2.
+    EXPECT_NEAR(design.adaptive_gain->small_error, 0.125 * ramped(mode).run.settling_band, 1e-12);
+  }
+  scene::Scene late = ramped(2.0);
+  late.drive->delay_periods += 3;
+  EXPECT_EQ(design_control(late).adaptive_gain->patience_periods, 28);
+}
+
+TEST(RampDesignTest, LeavesTheGainOfOtherModesAlone) {
+  for (const double mode : {0.47, 0.9, 1.5, 1.88, 2.12, 2.5, 3.5}) {
+    EXPECT_FALSE(design_control(ramped(mode)).adaptive_gain) << mode;
+  }
+  scene::Scene damped = ramped(2.01);
+  damped.plant.damping_N_s_per_m =
+      2.0 * 0.05 * std::sqrt(damped.plant.mass_kg * damped.plant.stiffness_N_per_m);
+  EXPECT_FALSE(design_control(damped).adaptive_gain);
+  scene::Scene stepped = ramped(2.01);
+  stepped.drive->interpolation = scene::Interpolation::step;
+  EXPECT_FALSE(design_control(stepped).adaptive_gain);
+}
+
 struct Choice {
   double mode;
   Quieting quieting;

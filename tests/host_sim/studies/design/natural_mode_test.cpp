@@ -81,6 +81,38 @@ TEST(NaturalModeTest, RecommendsABiasAgainstASlowMode) {
   EXPECT_FALSE(study_of(beside_a_multiple()).bias);
 }
 
+TEST(NaturalModeTest, RecommendsTheLoopThatSuitsTheMode) {
+  const NaturalModeStudy beside = study_of(beside_a_multiple());
+  EXPECT_TRUE(beside.recommended_loop.means.ramped);
+  EXPECT_EQ(beside.recommended_loop.refused, "");
+  EXPECT_LE(beside.recommended_loop.plants.never, 2U);
+  EXPECT_EQ(beside.recommended_loop.plants.never, beside.drives[1].plants.never);
+
+  scene::Scene slow = table_1();
+  slow.plant.stiffness_N_per_m = 2.558e6;  // 0.03 of the carrier
+  slow.drive->max_force_amplitude_N = 2200.0;
+  const NaturalModeStudy moved = study_of(slow);
+  EXPECT_TRUE(moved.recommended_loop.means.sensorless);
+  EXPECT_NEAR(moved.recommended_loop.bias_limit_N, moved.bias->limit_N, 1e-12);
+  EXPECT_EQ(moved.recommended_loop.plants.never, 0U);
+
+  scene::Scene usual = table_1();
+  usual.controller->arithmetic = scene::Arithmetic::q15;
+  const NaturalModeStudy other = study_of(usual);
+  EXPECT_TRUE(other.recommended_loop.means.sensorless);
+  EXPECT_EQ(other.recommended_loop.bias_limit_N, 0.0);
+  EXPECT_EQ(other.recommended_loop.plants.settled, other.plants);
+}
+
+TEST(NaturalModeTest, RecommendsTheSourceOfTheFrictionThatTheFirstTargetLeavesTimeFor) {
+  scene::Scene scene = beside_a_multiple();
+  scene.controller->target_friction_ratio = {{0.0, 0.5}, {3e-3, 0.4}};
+  scene.run.duration_s = 6e-3;
+  EXPECT_EQ(study_of(scene).recommended_loop.friction, scene::FrictionSource::calibrated);
+  scene.controller->target_friction_ratio = {{0.0, 0.5}, {1e-4, 0.4}};
+  EXPECT_EQ(study_of(scene).recommended_loop.friction, scene::FrictionSource::tracked);
+}
+
 TEST(NaturalModeTest, GivesAModeSlowerThanAHundredPeriodsTheTimeToComeToRest) {
   scene::Scene slow = table_1();
   slow.plant.stiffness_N_per_m = 1.82e5;  // 0.008 of the carrier
@@ -129,11 +161,16 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   NaturalModeStudy mistaken = *study.natural_mode;
   mistaken.model_error = true;
   EXPECT_NE(
-      natural_mode_advice(mistaken).at(1).sentence.find("on top of the scene's [model_error]"),
+      natural_mode_advice(mistaken).at(2).sentence.find("on top of the scene's [model_error]"),
       std::string::npos);
   EXPECT_TRUE(
       says("Controller: The best that feeds the drive forward has drive.interpolation = "
            "\"linear\" (the ramp alone): of 8 plants"))
+      << text;
+  EXPECT_TRUE(says(
+      "Recommended: With the force sensor alone, drive.interpolation = \"linear\", "
+      "drive.codes_per_period = 8, controller.friction = \"calibrated\": the ramp hardly excites "
+      "the mode, whatever the stiffness. Of 8 plants"))
       << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
   const auto json = to_json(study)["natural_mode"];
