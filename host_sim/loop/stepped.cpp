@@ -122,6 +122,7 @@ void SteppedScene::show_plant(const PlantPeriod& period) {
   plant_outputs_.velocity_m_per_s = state.velocity_m_per_s;
   plant_outputs_.friction_force_N = state.friction_force_N;
   plant_outputs_.load_displacement_m = engine_.plant()->load_displacement_m();
+  plant_outputs_.sliding_distance_m = period.end_distance_m;
 }
 
 void SteppedScene::show_controller() {

@@ -45,6 +45,7 @@ struct PlantOutputs {
   double velocity_m_per_s = 0.0;
   double friction_force_N = 0.0;
   double load_displacement_m = 0.0;  ///< 0 without a load
+  double sliding_distance_m = 0.0;   ///< that the sliding has gone, backwards negative
 };
 
 /// What the controller answers at the end of a carrier period.

@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/control_run.hpp"
 #include "host_sim/loop/plant/carrier_grid.hpp"
@@ -28,12 +27,6 @@ namespace {
 const configure::Experiment& usable(const configure::Experiment& experiment) {
   loop::require_usable(experiment.plant, loop::Kind::loop);
   loop::require_constant_carrier(experiment.plant);
-  if (experiment.plant.controller->texture) {
-    throw configure::ConfigurationError(
-        "controller.target_texture",
-        "a Loop is given its targets step by step; allowed: target_friction_ratio or "
-        "target_friction_force_N");
-  }
   return experiment;
 }
 
@@ -64,7 +57,7 @@ class Loop {
 
   /// One carrier period.
   /// @param target  that the controller is given, above 0, at most highest_target(); absent: as before,
-  ///                at the beginning the scene's steps
+  ///                at the beginning the scene's steps or its texture
   /// @throws loop::ComputationError, std::invalid_argument  the target is out of range
   void step(std::optional<double> target) {
     if (target && !(*target > 0.0 && *target <= highest_target())) {
@@ -80,8 +73,12 @@ class Loop {
     inputs.target = target.value_or(0.0);
     inputs.load_force_N = load_force_N_;
     wanted_ = coming();
+    const double begin_m = engine_->plant().sliding_distance_m;
     engine_->advance(inputs);
     ++periods_;
+    if (texture()) {
+      wanted_ = texture()->at(0.5 * (begin_m + engine_->plant().sliding_distance_m));
+    }
   }
 
   /// On the load, beside that of the scene, from the next step on; 0 until it is set.
@@ -110,8 +107,13 @@ class Loop {
   }
   /// Target of the scene, for the period that was stepped last.
   double wanted() const { return wanted_; }
-  /// Target of the scene, for the period that comes next.
+  /// Target of the scene, for the period that comes next; of a texture where the middle of that period
+  /// lies if the velocity stays.
   double coming() const {
+    if (texture()) {
+      const loop::PlantOutputs& now = engine_->plant();
+      return texture()->at(now.sliding_distance_m + 0.5 * period_s_ * now.sliding_velocity_m_per_s);
+    }
     const auto every = static_cast<std::uint64_t>(experiment_.plant.controller->every_periods);
     double wanted = schedule_.front().target;
     for (const loop::ScheduledTarget& each : schedule_) {
@@ -135,6 +137,9 @@ class Loop {
   }
 
  private:
+  const std::optional<scene::Texture>& texture() const {
+    return experiment_.plant.controller->texture;
+  }
   void copy_state(loop::StateCopy& copy) {
     copy(periods_, wanted_, load_force_N_);
     engine_->copy_state(copy);
@@ -173,6 +178,9 @@ py::dict info_of(const Loop& loop) {
   info[py::str(fmt::format("wanted_{}", held))] = loop.wanted();
   info[py::str(fmt::format("coming_{}", held))] = loop.coming();
   info["mean_friction_force_N"] = engine.plant().mean_friction_force_N;
+  if (loop.holds_force()) {
+    info["friction_force_along_sliding_N"] = loop.held();
+  }
   if (loop.has_load()) {
     info["load_displacement_m"] = engine.plant().load_displacement_m;
   }
@@ -210,16 +218,23 @@ void add_loop(py::module_& module) {
            "One carrier period. -> observation, reward, terminated, truncated, info\n\n"
            "target  friction ratio that the controller is given, above 0, at most 1; of a scene\n"
            "        with target_friction_force_N a force [N], at most sensor.force_full_scale_N;\n"
-           "        None: as before, and until the first one the steps of the scene\n\n"
+           "        None: as before, and until the first one the steps of the scene, or its\n"
+           "        texture\n\n"
            "reward      -|friction ratio of the period - the one that the scene wants|; of target\n"
            "            forces -|mean friction force along the sliding - the wanted one| [N]\n"
            "terminated  a fault has switched the drive off\n"
            "truncated   the duration of the scene is over\n"
            "info        time_s, what the scene wants of this period and of the coming one, the\n"
-           "            mean friction force of the period, of a scene with a load its\n"
-           "            displacement, and the controller's answer: amplitude_code (2**31 is the\n"
-           "            actuator's limit), commanded_ratio_code (2**31 is a ratio of 2), state,\n"
-           "            limit, fault, settling");
+           "            mean friction force of the period, of target forces that along the\n"
+           "            sliding, of a scene with a load its displacement, and the controller's\n"
+           "            answer: amplitude_code (2**31 is the actuator's limit),\n"
+           "            commanded_ratio_code (2**31 is a ratio of 2), state, limit, fault,\n"
+           "            settling");
+  loop.def_property_readonly("holds_force", &Loop::holds_force,
+                             "Targets are friction forces [N]; else friction ratios.");
+  loop.def_property_readonly("highest_target", &Loop::highest_target,
+                             "The highest that step() takes: a ratio of 1, or what the sensor\n"
+                             "reads at most [N].");
   loop.def_property(
       "load_force_N", &Loop::load_force_N, &Loop::set_load_force_N,
       "Force on the load from the next step on [N], beside that of the scene and\n"

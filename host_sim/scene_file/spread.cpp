@@ -34,7 +34,7 @@ TableCursor::Pair TableCursor::ends_in(std::string_view key, const toml::node& n
     if (allowed.whole && !end.is_integer()) {
       fail_spread(key, fmt::format("a range with {}", kind_of(end)), true);
     }
-    ends[i] = number_in(end, {key, i}, allowed.range);
+    ends[i] = number_in(end, {key, {}, i}, allowed.range);
   }
   check_order(key, ends);
   return ends;

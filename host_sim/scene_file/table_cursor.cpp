@@ -42,6 +42,9 @@ const GivenValue* TableCursor::find(std::string_view key) const {
 
 std::string TableCursor::path_of(const Part& part) const {
   std::string path = fmt::format("{}.{}", keys_.name, part.key);
+  if (!part.name.empty()) {
+    path += fmt::format(".{}", part.name);
+  }
   for (const std::optional<std::size_t>& index : {part.element, part.member}) {
     path += index ? fmt::format("[{}]", *index) : "";
   }
@@ -141,7 +144,7 @@ std::vector<std::size_t> TableCursor::words(std::string_view key, const Words& a
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < list->size(); ++i) {
     const toml::node& node = (*list)[i];
-    const Part part{key, i};
+    const Part part{key, {}, i};
     const std::size_t index = word_in(node, part, allowed);
     if (std::find(indices.begin(), indices.end(), index) != indices.end()) {
       fail_part(node, part,
@@ -193,7 +196,8 @@ TableCursor::Pair TableCursor::interval(std::string_view key, const Range& range
     fail(key, fmt::format("is {}; allowed: two numbers [lowest, highest], {}", count_of(value),
                           range.text()));
   }
-  const Pair ends{number_in((*pair)[0], {key, 0}, range), number_in((*pair)[1], {key, 1}, range)};
+  const Pair ends{number_in((*pair)[0], {key, {}, 0}, range),
+                  number_in((*pair)[1], {key, {}, 1}, range)};
   check_order(key, ends);
   return ends;
 }
@@ -236,12 +240,12 @@ std::vector<TableCursor::Pair> TableCursor::timed_values(std::string_view key, c
     const toml::node& element = (*list)[i];
     const toml::array* pair = element.as_array();
     if (pair == nullptr || pair->size() != 2) {
-      fail_part(element, {key, i},
+      fail_part(element, {key, {}, i},
                 fmt::format("is {}; allowed: a pair [time in s, number]", count_of(element)));
     }
-    pairs.push_back(
-        {number_in((*pair)[0], {key, i, 0}, time), number_in((*pair)[1], {key, i, 1}, value)});
-    check_time(element, {key, i}, pairs, times);
+    pairs.push_back({number_in((*pair)[0], {key, {}, i, 0}, time),
+                     number_in((*pair)[1], {key, {}, i, 1}, value)});
+    check_time(element, {key, {}, i}, pairs, times);
   }
   return pairs;
 }

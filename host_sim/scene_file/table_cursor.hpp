@@ -84,6 +84,7 @@ class TableCursor {
   /// A value, or a part of one: spelt out only where an error needs it.
   struct Part {
     std::string_view key;
+    std::string_view name = {};  ///< in the table that the key holds; empty: none
     std::optional<std::size_t> element = std::nullopt;
     std::optional<std::size_t> member = std::nullopt;  ///< of the element
   };
@@ -98,8 +99,7 @@ class TableCursor {
 
   double number_in(const toml::node& node, const Part& part, const Range& range) const;
   std::size_t word_in(const toml::node& node, const Part& part, const Words& allowed) const;
-  std::vector<double> points_in(std::string_view key, const toml::node& node, const Range& range,
-                                std::string_view name) const;
+  std::vector<double> points_in(const toml::node& node, const Part& part, const Range& range) const;
   Pair ends_in(std::string_view key, const toml::node& node, const Spread& allowed) const;
   scene::Tolerance spread_in(std::string_view key, const toml::table& table,
                              const Spread& allowed) const;

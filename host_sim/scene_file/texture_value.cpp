@@ -16,18 +16,19 @@ constexpr const char* allowed_form =
 
 }  // namespace
 
-std::vector<double> TableCursor::points_in(std::string_view key, const toml::node& node,
-                                           const Range& range, std::string_view name) const {
+std::vector<double> TableCursor::points_in(const toml::node& node, const Part& part,
+                                           const Range& range) const {
   const toml::array* list = node.as_array();
   if (list == nullptr || list->size() < fewest_points || list->size() > most_points) {
-    fail(key, fmt::format("{} is {}; allowed: a list of {} to {} numbers, {}", name,
+    fail_part(node, part,
+              fmt::format("is {}; allowed: a list of {} to {} numbers, {}",
                           list == nullptr ? std::string(kind_of(node))
                                           : fmt::format("an array of {}", list->size()),
                           fewest_points, most_points, range.text()));
   }
   std::vector<double> points;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    points.push_back(number_in((*list)[i], {key, i}, range));
+    points.push_back(number_in((*list)[i], {part.key, part.name, i}, range));
   }
   return points;
 }
@@ -55,10 +56,10 @@ scene::Texture TableCursor::texture(std::string_view key, const TextureTable& al
                           ratio == nullptr ? "neither" : "both", ratio == nullptr ? "nor" : "and"));
   }
   scene::Texture texture;
-  texture.period_m = number_in(*period, {key}, allowed.period);
+  texture.period_m = number_in(*period, {key, "period_m"}, allowed.period);
   texture.of_force = force != nullptr;
-  texture.values = texture.of_force ? points_in(key, *force, allowed.force, "force_N")
-                                    : points_in(key, *ratio, allowed.ratio, "ratio");
+  texture.values = texture.of_force ? points_in(*force, {key, "force_N"}, allowed.force)
+                                    : points_in(*ratio, {key, "ratio"}, allowed.ratio);
   return texture;
 }
 

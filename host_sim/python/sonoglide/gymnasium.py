@@ -24,13 +24,13 @@ ENVIRONMENT = "sonoglide/Loop-v0"
 class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     """A controller of friction whose target a policy sets, one carrier period a step.
 
-    scene  in closed loop, with target_friction_ratio; None: the example target_step.toml. An episode is as
-           long as the scene.
+    scene  in closed loop; None: the example target_step.toml. An episode is as long as the scene.
 
-    action       the target friction ratio that the controller is given, in [0, 1]; what is below
+    action       the target that the controller is given, over the highest that it takes, in [0, 1]: that
+                 is a friction ratio of 1, or the force that the sensor reads at most; what is below
                  least_target counts as that
     observation  observation_names, each over its full scale and kept inside its bounds
-    reward       1 - |friction_ratio - wanted_ratio| of the observation
+    reward       1 - |what is held - what is wanted|, the first two of the observation
     terminated   a fault has switched the drive off
     truncated    the scene is over
     info         as sonoglide.Loop.step() has it
@@ -40,7 +40,7 @@ class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     metadata: dict[str, Any] = {"render_modes": []}
     least_target = 1e-3
-    observation_names = (
+    observation_names: tuple[str, ...] = (
         "friction_ratio",  # mean of the period; -2 to 2
         "wanted_ratio",  # that the scene wanted of it; 0 to 1
         "coming_ratio",  # that it wants of the next one; 0 to 1
@@ -53,15 +53,13 @@ class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def __init__(self, scene: Scene | None = None) -> None:
         self.scene = scene or Scene(scenes / "target_step.toml")
-        if "target_friction_force_N" in self.scene.values["controller"]:
-            raise ValueError(
-                "controller.target_friction_force_N: actions and rewards are friction ratios; allowed: "
-                "target_friction_ratio, or sonoglide.Loop"
-            )
         self._loop = _control.Loop(self.scene)
         unit = _control.Unit(self.scene)
         velocity = unit.velocity_full_scale_m_per_s
         omega = 2.0 * np.pi * self.scene.values["drive"]["frequency_Hz"]
+        if self._loop.holds_force:
+            targets = "friction_force_along_sliding", "wanted_force", "coming_force"
+            self.observation_names = (*targets, *self.observation_names[3:])
         # In the order of sonoglide.Loop.observation_names.
         self._full_scales = np.array(
             [1.0, unit.amplitude_full_scale_N, velocity, velocity / omega, velocity, unit.force_full_scale_N]
@@ -73,8 +71,12 @@ class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
     def _observation(self, observed: NDArray[np.float64], info: dict[str, Any]) -> NDArray[np.float32]:
         scaled = observed / self._full_scales
-        wanted = info["wanted_friction_ratio"], info["coming_friction_ratio"]
-        values = np.concatenate([scaled[:1], wanted, scaled[1:]])
+        if self._loop.holds_force:
+            names = "friction_force_along_sliding_N", "wanted_friction_force_N", "coming_friction_force_N"
+            targets = [info[name] / self._loop.highest_target for name in names]
+        else:
+            targets = [scaled[0], info["wanted_friction_ratio"], info["coming_friction_ratio"]]
+        values = np.concatenate([targets, scaled[1:]])
         box = self.observation_space
         clipped: NDArray[np.float32] = np.clip(values, box.low, box.high).astype(np.float32)
         return clipped
@@ -90,7 +92,7 @@ class Loop(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         self, action: NDArray[np.float32]
     ) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         target = max(float(np.reshape(action, ())), self.least_target)
-        observed, _, terminated, truncated, info = self._loop.step(target)
+        observed, _, terminated, truncated, info = self._loop.step(target * self._loop.highest_target)
         observation = self._observation(observed, info)
         reward = 1.0 - abs(float(observation[0]) - float(observation[1]))
         return observation, reward, terminated, truncated, info

@@ -215,6 +215,43 @@ def test_observations_are_scaled(environment, scene):
     assert 0.05 < abs(observation[3:]).max() <= 1.0
 
 
+HELD_FORCE = {"controller.target_friction_ratio": None,
+              "controller.target_friction_force_N": [[0.0, 0.01], [2e-3, 0.012]]}
+FORCE_TEXTURE = {"controller.target_friction_ratio": None,
+                 "controller.target_texture": {"period_m": 53.44e-6, "force_N": [0.008, 0.012]}}
+
+
+@pytest.mark.parametrize("changes", [HELD_FORCE, FORCE_TEXTURE])
+def test_target_forces_are_parts_of_what_the_sensor_reads(environment, scene, changes):
+    read = scene("target_step", changes)
+    full_N = read.values["sensor"]["force_full_scale_N"]
+    env, loop = environment.Loop(read), sonoglide.Loop(read)
+    names = env.observation_names
+    assert names[:3] == ("friction_force_along_sliding", "wanted_force", "coming_force")
+    first, _ = env.reset(seed=1)
+    loop.reset()
+    assert first in env.observation_space
+    action = numpy.array([0.01 / full_N], numpy.float32)
+    for _ in range(150):
+        first, reward, terminated, truncated, info = env.step(action)
+        plain = loop.step(float(action[0]) * full_N)
+        assert first in env.observation_space
+        assert info == plain[4]
+        assert first[1] == pytest.approx(plain[4]["wanted_friction_force_N"] / full_N, rel=1e-6)
+        assert reward == 1.0 - abs(float(first[0]) - float(first[1]))
+    # 0.01 N is held whatever the scene wants; Newtons are found by the simulation's own mean force.
+    assert first[0] * full_N == pytest.approx(0.01, rel=2e-3)
+    assert first[0] * full_N == pytest.approx(abs(info["mean_friction_force_N"]), rel=1e-6)
+
+
+def test_the_force_of_the_sensor_is_the_highest_action(environment, scene):
+    env = environment.Loop(scene("target_step", HELD_FORCE))
+    env.reset(seed=1)
+    for action in 0.0, 1.0:
+        observation, reward, terminated, truncated, info = env.step(numpy.array([action], numpy.float32))
+        assert observation in env.observation_space and not terminated
+
+
 @pytest.mark.parametrize("arithmetic", ["float32", "q31", "q15"])
 def test_the_action_0_is_the_least_target(environment, scene, arithmetic):
     env = environment.Loop(scene("target_step", {"controller.arithmetic": arithmetic}))

@@ -201,11 +201,53 @@ def test_a_force_that_no_load_can_have_is_refused(scene, changes, force, why):
     assert loop.load_force_N == 0.0
 
 
-def test_a_texture_is_refused(scene):
-    texture = {"period_m": 53.44e-6, "ratio": [0.4, 0.6]}
-    changes = {"controller.target_friction_ratio": None, "controller.target_texture": texture}
-    with pytest.raises(ValueError, match="controller.target_texture: .*allowed: "):
-        sonoglide.Loop(scene("target_step", changes))
+TEXTURE = {"controller.target_friction_ratio": None,
+           "controller.target_texture": {"period_m": 53.44e-6, "ratio": [0.4, 0.5, 0.7, 0.5]}}
+FORCE_TEXTURE = {"controller.target_friction_ratio": None,
+                 "controller.target_texture": {"period_m": 53.44e-6, "force_N": [0.008, 0.012]}}
+
+
+@pytest.mark.parametrize("changes", [TEXTURE, FORCE_TEXTURE, {**TEXTURE, **LOAD}])
+def test_a_texture_gives_the_commands_of_run(scene, changes):
+    read = scene("target_step", changes)
+    loop = sonoglide.Loop(read)
+    to_the_end(loop)
+    assert loop.trace_hash == sonoglide.run(read).trace_hash
+
+
+def test_a_texture_is_wanted_where_the_sliding_is(scene):
+    # 0.02672 m/s and 2 ms of a period: in the steps of 1/60 ms the place is known without the loop.
+    loop = sonoglide.Loop(scene("target_step", TEXTURE))
+    loop.reset()
+    places = numpy.array([0.0, 0.25, 0.5, 0.75, 1.0])
+    values = numpy.array([0.4, 0.5, 0.7, 0.5, 0.4])
+    wanted, coming = [], [loop.observe()[1]["coming_friction_ratio"]]
+    for _ in range(300):
+        info = loop.step()[4]
+        wanted.append(info["wanted_friction_ratio"])
+        coming.append(info["coming_friction_ratio"])
+    middles = (numpy.arange(301) + 0.5) / 60e3 * 0.02672 / 53.44e-6
+    assert wanted == pytest.approx(numpy.interp(middles[:300] % 1.0, places, values), abs=1e-9)
+    assert coming == pytest.approx(numpy.interp(middles % 1.0, places, values), abs=1e-9)
+
+
+def test_a_target_of_ones_own_ends_the_texture_and_not_what_is_wanted(scene):
+    loop = sonoglide.Loop(scene("target_step", TEXTURE))
+    loop.reset()
+    for _ in range(240):
+        observation, reward, _, _, info = loop.step(0.5)
+    assert observation[0] == pytest.approx(0.5, abs=0.01)
+    assert info["wanted_friction_ratio"] < 0.45
+    assert reward == -abs(observation[0] - info["wanted_friction_ratio"])
+
+
+def test_a_copy_goes_on_with_its_texture(scene):
+    loop = sonoglide.Loop(scene("target_step", TEXTURE))
+    for _ in range(130):
+        loop.step()
+    again = pickle.loads(pickle.dumps(loop))
+    for _ in range(130):
+        assert loop.step()[4] == again.step()[4]
 
 
 @pytest.mark.parametrize("name", ["table_1_open_loop", "langevin"])
