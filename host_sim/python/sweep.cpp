@@ -60,12 +60,24 @@ py::dict sweep_columns(const sweep::Plan& plan, const std::vector<sweep::PointRe
   columns["friction_ratio_whole_run"] = figure_column(rows, &PointResult::friction_ratio_whole_run);
   columns["friction_ratio_window"] = figure_column(rows, &PointResult::friction_ratio_window);
   columns["dissipation_ratio_window"] = figure_column(rows, &PointResult::dissipation_ratio_window);
-  if (plan.closed_loop()) {
+  if (plan.first().load) {
+    columns["load_final_velocity_m_per_s"] =
+        figure_column(rows, &PointResult::load_final_velocity_m_per_s);
+    columns["load_final_displacement_m"] =
+        figure_column(rows, &PointResult::load_final_displacement_m);
+  }
+  if (plan.closed_loop() && plan.first().controller->texture) {
+    columns["texture_mean_error"] = figure_column(rows, &PointResult::texture_mean_error);
+    columns["texture_amplitude_ratio"] = figure_column(rows, &PointResult::texture_amplitude_ratio);
+    columns["texture_lag_deg"] = figure_column(rows, &PointResult::texture_lag_deg);
+  } else if (plan.closed_loop()) {
     columns["settling_time_s"] = figure_column(rows, &PointResult::settling_time_s);
     columns["steady_error"] = figure_column(rows, &PointResult::steady_error);
     columns["ripple"] = figure_column(rows, &PointResult::ripple);
     columns["limit"] =
         word_column(rows, [](const PointResult& row) { return control::name(row.limit); });
+  }
+  if (plan.closed_loop()) {
     columns["fault"] =
         word_column(rows, [](const PointResult& row) { return control::name(row.fault); });
   }

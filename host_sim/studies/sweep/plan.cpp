@@ -53,12 +53,6 @@ Plan::Plan(scene_file::Source source, std::vector<std::string> overrides,
   has_words_ =
       std::any_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.has_words(); });
   first_ = experiment(0).nominal;
-  if (first_.controller && first_.controller->texture) {
-    throw scene_file::SceneError(
-        document_->place_of("controller.target_texture"), "controller.target_texture",
-        "a sweep tells how the last target step settles; allowed: target_friction_ratio or "
-        "target_friction_force_N");
-  }
   require_used();
 }
 

@@ -21,7 +21,8 @@ struct Subject {
   std::string label;  ///< with its unit
 };
 
-/// The friction ratio over the window; in closed loop the steady error of the last target step.
+/// The friction ratio over the window, or where a load ends; in closed loop the steady error of the last target step, or the
+/// amplitude of a texture.
 Subject subject(const Plan& plan);
 
 struct ExtremePoints {
@@ -34,7 +35,8 @@ std::optional<ExtremePoints> extremes(const std::vector<PointResult>& rows,
                                       double PointResult::*figure);
 
 /// One line for each point, in the order of the grid, under a heading: the varied keys, the figures
-/// of Row, status last. In closed loop also settling_time_s, steady_error, ripple, limit and fault.
+/// of Row, status last. With a load also where and how fast it ends. In closed loop also settling_time_s, steady_error, ripple and limit, or those of a
+/// texture, and fault.
 /// Numbers read back the same to the bit; what is not defined is `nan`. A status with a comma is
 /// quoted (RFC 4180).
 void write_csv(std::ostream& out, const Plan& plan, const std::vector<PointResult>& rows);

@@ -13,6 +13,7 @@
 #include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/report/texture_metrics.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/runs/lane_scene.hpp"
 #include "host_sim/scene/solver_facts.hpp"
@@ -110,12 +111,36 @@ double expected_solving_cost(const Plan& plan, const PointRange& points) {
 
 namespace {
 
+void take_step(const report::StepMetrics& last, double size, PointResult& row) {
+  row.settling_time_s = last.settling_time_s.value_or(PointResult::undefined);
+  row.steady_error = last.steady_error * size;
+  row.ripple = last.ripple * size;
+  row.limit = last.limit;
+}
+
+/// The mean comes first, then the harmonics.
+void take_texture(const std::vector<report::TextureHarmonic>& harmonics, double size,
+                  PointResult& row) {
+  const report::TextureHarmonic& mean = harmonics.front();
+  row.texture_mean_error = (mean.rendered.real() - mean.wanted.real()) * size;
+  const auto largest = std::max_element(
+      harmonics.begin() + 1, harmonics.end(),
+      [](const auto& a, const auto& b) { return std::abs(a.wanted) < std::abs(b.wanted); });
+  if (largest != harmonics.end()) {
+    row.texture_amplitude_ratio = largest->amplitude_ratio();
+    row.texture_lag_deg = largest->lag_deg();
+  }
+}
+
 PointResult run(const experiment::Experiment& experiment) {
   const scene::Scene& scene = experiment.plant;
-  std::optional<report::StepMeter> meter;
+  std::optional<report::StepMeter> steps;
+  std::optional<report::TextureMeter> texture;
   loop::Watch watch;
-  if (experiment.design) {
-    watch.periods.push_back(&meter.emplace(scene, *experiment.design));
+  if (experiment.design && scene.controller->texture) {
+    watch.periods.push_back(&texture.emplace(scene));
+  } else if (experiment.design) {
+    watch.periods.push_back(&steps.emplace(scene, *experiment.design));
   }
   const loop::RunResult result = loop::run(experiment, watch);
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
@@ -123,13 +148,16 @@ PointResult run(const experiment::Experiment& experiment) {
   row.friction_ratio_whole_run = loop::power_ratios(scene, result.whole).friction_ratio;
   row.friction_ratio_window = window.friction_ratio;
   row.dissipation_ratio_window = window.dissipation_ratio;
-  if (meter) {
-    const report::StepMetrics last = meter->steps().back();
-    row.settling_time_s = last.settling_time_s.value_or(PointResult::undefined);
-    const double size = report::target_unit(scene).size;
-    row.steady_error = last.steady_error * size;
-    row.ripple = last.ripple * size;
-    row.limit = last.limit;
+  if (scene.load) {
+    row.load_final_velocity_m_per_s = result.final_state.load_velocity_m_per_s;
+    row.load_final_displacement_m = result.final_load_displacement_m;
+  }
+  if (steps) {
+    take_step(steps->steps().back(), report::target_unit(scene).size, row);
+  } else if (texture) {
+    take_texture(texture->harmonics(), report::target_unit(scene).size, row);
+  }
+  if (result.control) {
     const std::vector<loop::FaultEvent>& faults = result.control->faults;
     row.fault = faults.empty() ? control::Fault::none : faults.front().fault;
   }

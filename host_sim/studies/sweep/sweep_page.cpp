@@ -22,15 +22,30 @@ std::vector<Figure> figures(const Plan& plan) {
       {"Friction ratio, whole run", &PointResult::friction_ratio_whole_run},
       {"Friction ratio, window", &PointResult::friction_ratio_window},
       {"Power dissipation ratio, window", &PointResult::dissipation_ratio_window}};
-  if (plan.closed_loop()) {
-    all.push_back({"Settling time, last target step [s]", &PointResult::settling_time_s});
-    const bool of_force = plan.first().controller->holds_force();
+  if (plan.first().load) {
     all.push_back(
-        {of_force ? "Steady error, last target step [N]" : "Steady error, last target step",
-         &PointResult::steady_error});
-    all.push_back({of_force ? "Ripple, last target step [N]" : "Ripple, last target step",
-                   &PointResult::ripple});
+        {"Velocity of the load at the end [m/s]", &PointResult::load_final_velocity_m_per_s});
+    all.push_back(
+        {"Displacement of the load at the end [m]", &PointResult::load_final_displacement_m});
   }
+  if (!plan.closed_loop()) {
+    return all;
+  }
+  const scene::Controller& controller = *plan.first().controller;
+  const bool of_force = controller.holds_force();
+  if (controller.texture) {
+    all.push_back({of_force ? "Error of the texture's mean [N]" : "Error of the texture's mean",
+                   &PointResult::texture_mean_error});
+    all.push_back({"Amplitude of the texture's largest harmonic, rendered over wanted",
+                   &PointResult::texture_amplitude_ratio});
+    all.push_back({"Lag of that harmonic [deg]", &PointResult::texture_lag_deg});
+    return all;
+  }
+  all.push_back({"Settling time, last target step [s]", &PointResult::settling_time_s});
+  all.push_back({of_force ? "Steady error, last target step [N]" : "Steady error, last target step",
+                 &PointResult::steady_error});
+  all.push_back({of_force ? "Ripple, last target step [N]" : "Ripple, last target step",
+                 &PointResult::ripple});
   return all;
 }
 
@@ -133,9 +148,17 @@ output::Page sweep_page(const Plan& plan, const std::vector<PointResult>& rows,
 }
 
 Subject subject(const Plan& plan) {
+  if (plan.closed_loop() && plan.first().controller->texture) {
+    return {&PointResult::texture_amplitude_ratio, "Amplitude of the texture",
+            "Amplitude of the texture, rendered over wanted [-]"};
+  }
   if (plan.closed_loop() && plan.first().controller->holds_force()) {
     return {&PointResult::steady_error, "Steady error of the friction force",
             "Steady error of the friction force [N]"};
+  }
+  if (!plan.closed_loop() && plan.first().load) {
+    return {&PointResult::load_final_displacement_m, "Displacement of the load",
+            "Displacement of the load at the end [m]"};
   }
   return plan.closed_loop()
              ? Subject{&PointResult::steady_error, "Steady error of the friction ratio",

@@ -151,7 +151,7 @@ TEST(SelfExcited, RefusesWhatHasNoSteadySliding) {
     EXPECT_EQ(outcome.exit_code, 2) << set;
     return outcome.err;
   };
-  for (const char* set : {"sliding.velocity_m_per_s=0", "plant.mass_kg=1e-6",
+  for (const char* set : {"sliding.velocity_m_per_s=0", "plant.mass_kg=7.1e-4",
                           "drive.waveform=square", "friction.sign_convention=as_printed"}) {
     const std::string key = std::string(set).substr(0, std::string(set).find('='));
     EXPECT_NE(refusal(set).find(key), std::string::npos) << set;

@@ -19,6 +19,7 @@ TEST(RecordTest, KeepsEveryBit) {
     record.row.friction_ratio_whole_run = a;
     record.row.friction_ratio_window = -b;
     record.row.ripple = c;
+    record.row.texture_lag_deg = -c;
     record.row.limit = *rc::gen::element(control::Limit::none, control::Limit::speed_floor);
     record.row.fault =
         *rc::gen::element(control::Fault::none, control::Fault::measurement_implausible);
@@ -30,6 +31,7 @@ TEST(RecordTest, KeepsEveryBit) {
     RC_ASSERT(same_bits(read->row.friction_ratio_window, -b));
     RC_ASSERT(same_bits(read->row.dissipation_ratio_window, PointResult::undefined));
     RC_ASSERT(same_bits(read->row.ripple, c));
+    RC_ASSERT(same_bits(read->row.texture_lag_deg, -c));
     RC_ASSERT(read->row.limit == record.row.limit);
     RC_ASSERT(read->row.fault == record.row.fault);
     RC_ASSERT(read->row.status == record.row.status);
@@ -37,7 +39,8 @@ TEST(RecordTest, KeepsEveryBit) {
 }
 
 TEST(RecordTest, TextsOfAnotherFormAreRefused) {
-  for (const char* text : {"", "1", "x 0 0 0 0 0 0 0 ok", "1 0 0 0 0 0 0 9 ok", "1 0 0 0 0 0 0"}) {
+  for (const char* text : {"", "1", "x 0 0 0 0 0 0 0 0 0 0 0 0 0 ok",
+                           "1 0 0 0 0 0 0 0 0 0 0 0 0 99 ok", "1 0 0 0 0 0 0"}) {
     EXPECT_FALSE(long_work::parse_record<PointResult>(text).has_value()) << text;
   }
 }

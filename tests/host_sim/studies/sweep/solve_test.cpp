@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -18,6 +19,40 @@ namespace {
 
 /// Without friction the lanes have nothing to solve.
 const char* const frictionless_first = "friction.coefficient=0:0.2:5";
+
+/// 1 kHz off resonance at Table 1.
+TEST(SolvePoint, OfATextureHasTheFiguresOfItsLargestHarmonic) {
+  const ScratchScene scratch(closed_loop);
+  const Plan plan(
+      scene_file::read_source(scratch.file()),
+      {"run.duration_periods=480", "controller.target_friction_ratio=",
+       "controller.target_texture={ period_m = 26.72e-6, ratio = [0.5, 0.64, 0.7, 0.64, 0.5, "
+       "0.36, 0.3, 0.36] }"},
+      {"sensor.seed=1:1:1"});
+  const PointResult row = solve_scalar_point(plan.experiment(0));
+  EXPECT_TRUE(row.ok());
+  EXPECT_EQ(row.fault, control::Fault::none);
+  EXPECT_NEAR(row.texture_mean_error, 0.0, 0.01);
+  EXPECT_NEAR(row.texture_amplitude_ratio, 1.0, 0.05);
+  EXPECT_NEAR(row.texture_lag_deg, 0.0, 20.0);
+  EXPECT_TRUE(std::isnan(row.settling_time_s));
+}
+
+/// Coulomb friction without a drive: M v falls by the friction, and x = (v0 + v) t / 2.
+TEST(SolvePoint, OfALoadTellsWhereItEnds) {
+  const ScratchScene scratch(open_loop);
+  const Plan plan(
+      scene_file::read_source(scratch.file()),
+      {"sliding.velocity_m_per_s=", "load.mass_kg=0.5", "load.initial_velocity_m_per_s=0.1",
+       "friction.law=coulomb", "friction.contact_stiffness_N_per_m=", "drive.force_amplitude_N=0"},
+      {"friction.coefficient=0.1:0.2:2"});
+  const PointResult row = solve_scalar_point(plan.experiment(1));
+  const double time_s = plan.first().run.duration_s;
+  const double end_m_per_s = 0.1 - 0.2 * 0.1962 / 0.5 * time_s;
+  EXPECT_TRUE(row.ok());
+  EXPECT_NEAR(row.load_final_velocity_m_per_s, end_m_per_s, 1e-9);
+  EXPECT_NEAR(row.load_final_displacement_m, 0.5 * (0.1 + end_m_per_s) * time_s, 1e-11);
+}
 
 class SolveTest : public testing::Test {
  protected:
