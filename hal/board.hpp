@@ -83,6 +83,13 @@ struct BiasedDrive : Drive {
 /// sample() then gives the sample that came with the latest period, and waits if it has given that
 /// one before. The rest is optional; an image holds only what it names.
 ///
+/// A board with an encoder along the sliding may hand over its count. A texture (controller.target_texture)
+/// then lies along that count, in place of the sliding velocity that the controller integrates; it begins
+/// where the count is 0. Both members or none:
+///
+///     static constexpr double travel_counts_per_m;  // a texture's period has 8 to 2^30 counts
+///     std::uint32_t travel();  // with the last sample; rises with the sliding velocity; wraps
+///
 ///   class Watchdog {  // resets the board unless it is fed in time
 ///    public:
 ///     void feed();
@@ -124,6 +131,13 @@ template <class Board>
 struct KeepsPeriods<Board, std::void_t<decltype(std::declval<Board&>().period())>>
     : std::is_same<decltype(std::declval<Board&>().period()), std::uint32_t> {};
 
+template <class Board, class = void>
+struct CountsTravel : std::false_type {};
+template <class Board>
+struct CountsTravel<Board, std::void_t<decltype(std::declval<Board&>().travel()),
+                                       decltype(Board::travel_counts_per_m)>>
+    : std::is_same<decltype(std::declval<Board&>().travel()), std::uint32_t> {};
+
 }  // namespace detail
 
 /// Whether a class has the shape of a board.
@@ -134,5 +148,9 @@ inline constexpr bool is_board = detail::IsBoard<Board, SampleT, DriveT>::value;
 template <class Board, class SampleT = Sample, class DriveT = Drive>
 inline constexpr bool keeps_periods =
     is_board<Board, SampleT, DriveT>&& detail::KeepsPeriods<Board>::value;
+
+/// Whether a board counts the sliding distance.
+template <class Board>
+inline constexpr bool counts_travel = detail::CountsTravel<Board>::value;
 
 }  // namespace sonoglide::hal

@@ -8,6 +8,7 @@
 
 #include "firmware/app/host_ramp.hpp"
 #include "firmware/app/order_slot.hpp"
+#include "firmware/app/ordered_targets.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/trace.hpp"
@@ -45,8 +46,9 @@ struct Snapshot {
 /// @tparam Designed      see Controller::settle_at
 /// @tparam Atomic        std::atomic, or what a test puts in its place
 /// @tparam TraceRecords  of its trace; 0: it has none
+/// @tparam Course        of the target: OrderedTargets or TextureCourse
 template <class ControllerT, class Designed, template <class> class Atomic = std::atomic,
-          std::size_t TraceRecords = 0>
+          std::size_t TraceRecords = 0, class Course = OrderedTargets>
 class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   using Base = Supervisor<ControllerT, HostRamp>;
 
@@ -77,9 +79,12 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   /// @param designed         where it finds its tables; outlives this
   /// @param timeout_periods  for which the host may be silent; 0: for ever
   /// @param service_periods  in which the service comes round
+  /// @param course           of the target, see course_of()
   CommandedSupervisor(const Parameters& parameters, const Designed& designed,
-                      std::uint32_t timeout_periods, std::uint32_t service_periods)
+                      std::uint32_t timeout_periods, std::uint32_t service_periods,
+                      const Course& course = Course())
       : Base(parameters),
+        course_(course),
         designed_(designed),
         timeout_periods_(timeout_periods),
         service_periods_(service_periods),
@@ -98,6 +103,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   /// A carrier period with what look() gave, here or in the run that is replayed.
   const Drive& step(const Sample& sample, const Work& work) {
     Base::begin(sample);
+    course_.move(static_cast<const Base&>(*this));
     if (work.stop) {
       Base::stop();
       return Base::drive();
@@ -108,7 +114,21 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     } else if (!carry_out(*work.order)) {
       return Base::drive();
     }
+    course_.aim(static_cast<Base&>(*this));
     return Base::answer(sample);
+  }
+
+  /// After the step: what the target of the next one depends on.
+  template <class Board>
+  void pass(const Sample& sample, Board& board) {
+    course_.pass(sample, board);
+  }
+
+  /// @param target  see Controller::set_target; of a unit with a texture 0 is to follow it
+  void set_target(Scalar target) {
+    if (!course_.takes(target)) {
+      Base::set_target(target);
+    }
   }
 
   /// The service came round of late.
@@ -198,7 +218,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         start();
         break;
       case Kind::target:
-        Base::set_target(order.target);
+        set_target(order.target);
         trace_.take_target();
         trace_.note_target(Base::periods());
         break;
@@ -206,7 +226,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         timeout_periods_ = order.timeout_periods;
         Base::replace(order.controller);
         Base::settle_at(designed_);
-        Base::set_target(order.target);
+        set_target(order.target);
         trace_.take_target();
         break;
     }
@@ -242,6 +262,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     }
   }
 
+  [[no_unique_address]] Course course_;
   const Designed& designed_;
   std::uint32_t timeout_periods_;
   std::uint32_t service_periods_;

@@ -34,13 +34,13 @@ class ControlLoop {
     }
     board_.drive(drive_of(
         controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample))));
-    targets.pass(sample);
+    targets.pass(sample, board_);
     return true;
   }
 
  private:
   struct NoTargets {
-    static constexpr void pass(const Sample& /*sample*/) {}
+    static constexpr void pass(const Sample& /*sample*/, BoardT& /*board*/) {}
   };
 
   ControllerT& controller_;

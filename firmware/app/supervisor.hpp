@@ -117,10 +117,12 @@ class Supervisor {
     return drive_;
   }
 
-  // Nobody serves it, and nobody looks at it: see CommandedSupervisor.
+  // Nobody serves it, nobody looks at it, and its target stands: see CommandedSupervisor.
   static constexpr bool serviced() { return true; }
   static void publish() {}
   static void note_service() {}
+  template <class Board>
+  static constexpr void pass(const Sample& /*sample*/, Board& /*board*/) {}
 
   /// Neither off nor in a fault, or on the ramp down.
   bool driving() const { return running() || host_.falling(); }

@@ -37,7 +37,8 @@ class TargetSchedule {
   }
 
   /// Takes a sample: these targets do not depend on it.
-  static constexpr void pass(const hal::Sample& /*sample*/) {}
+  template <class Board>
+  static constexpr void pass(const hal::Sample& /*sample*/, Board& /*board*/) {}
 
  private:
   const TargetStep<Scalar> (&steps_)[Count];
@@ -45,7 +46,7 @@ class TargetSchedule {
   std::uint32_t period_ = 0;
 };
 
-template <class Scalar, std::size_t Count>
+template <class Board = void, class Scalar, std::size_t Count>
 TargetSchedule<Scalar, Count> schedule_of(const TargetStep<Scalar> (&steps)[Count]) {
   return TargetSchedule<Scalar, Count>(steps);
 }

@@ -66,6 +66,7 @@ class TimedLoop {
       supervisor_.trip(UnitFault::overrun);
       board_.drive(supervisor_.drive());
     }
+    supervisor_.pass(sample, board_);
     supervisor_.publish();
     return true;
   }

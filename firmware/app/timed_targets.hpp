@@ -69,7 +69,8 @@ class TimedSchedule {
   }
 
   /// Takes a sample: these targets do not depend on it.
-  static constexpr void pass(const hal::Sample& /*sample*/) {}
+  template <class Board>
+  static constexpr void pass(const hal::Sample& /*sample*/, Board& /*board*/) {}
 
  private:
   const TimedTargets<Scalar, Count>& targets_;
@@ -77,7 +78,7 @@ class TimedSchedule {
   std::size_t next_ = 0;
 };
 
-template <class Scalar, std::size_t Count>
+template <class Board = void, class Scalar, std::size_t Count>
 TimedSchedule<Scalar, Count> schedule_of(const TimedTargets<Scalar, Count>& targets) {
   return TimedSchedule<Scalar, Count>(targets);
 }

@@ -35,25 +35,28 @@ enum class Answer : std::uint8_t {
 ///                       processor
 /// @tparam TraceRecords  steps that its trace keeps, 2 ... 65535; 0: it has no trace. A record takes 20 bytes,
 ///                       of a controller with a frequency or a bias 24
+/// @tparam Course        see CommandedSupervisor
 template <class PartsT, class Flash, template <class> class Word = std::atomic,
-          std::size_t TraceRecords = 0>
+          std::size_t TraceRecords = 0, class Course = OrderedTargets>
 class Unit {
  public:
   using Design = FieldDesign<PartsT>;
   using Supervisor = CommandedSupervisor<typename Design::Controller, typename Design::Designed,
-                                         Word, TraceRecords>;
+                                         Word, TraceRecords, Course>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none.
   /// @param design  outlives the unit.
   /// @param flash   holds the store; outlives the unit.
-  [[gnu::cold]] Unit(const FieldDesign<PartsT>& design, Flash& flash)
+  /// @param course  of the target, see course_of()
+  [[gnu::cold]] Unit(const FieldDesign<PartsT>& design, Flash& flash,
+                     const Course& course = Course())
       : design_(design),
         store_(flash, design.design()),
         values_(design.presets()),
         origin_(load()),
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_), design.designed(),
-                    design.timeout_periods(values_), design.service_periods()) {
+                    design.timeout_periods(values_), design.service_periods(), course) {
     supervisor_.set_target(design_.target(target_));
     supervisor_.trace().expect_target(target_);
     supervisor_.trace().take_target();

@@ -36,13 +36,13 @@ class ShownBoard : public Hardware::Board {
   void drive(const Answer& answer);
 };
 
-using Targets = decltype(app::schedule_of(configuration::target_steps));
+using Targets = decltype(app::schedule_of<ShownBoard>(configuration::target_steps));
 
 struct Run {
   Controller controller{configuration::parameters};
   ShownBoard board{ticks};
   app::ControlLoop<Controller, ShownBoard> loop{controller, board};
-  Targets targets = app::schedule_of(configuration::target_steps);
+  Targets targets = app::schedule_of<ShownBoard>(configuration::target_steps);
 };
 
 Run* run;  // set before the carrier interrupts

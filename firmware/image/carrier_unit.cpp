@@ -37,8 +37,9 @@ struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
 };
 
+using Course = decltype(app::course_of<Hardware::Board>(configuration::target_steps));
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
-                       sonoglide::hal::trace_records<Hardware>>;
+                       sonoglide::hal::trace_records<Hardware>, Course>;
 using Service = app::LinkService<Unit, Hardware::ByteLink, 32, Product>;
 using Loop = app::TimedLoop<Unit::Supervisor, Hardware::Board, Hardware::Watchdog, Service>;
 
@@ -55,7 +56,7 @@ extern "C" void take_carrier() {
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
-  Unit unit(design, flash);
+  Unit unit(design, flash, app::course_of<Hardware::Board>(configuration::target_steps));
   Service service(unit, bytes);
   Hardware::Board board(ticks);
   app::tune(board, configuration::carrier_period_s);

@@ -3,12 +3,14 @@
 #include SONOGLIDE_BOARD_HEADER
 
 #include <cstdint>
+#include <type_traits>
 
 #include "controller_configuration.hpp"
 #include "firmware/app/field_parameters.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/target_schedule.hpp"
+#include "firmware/app/texture.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/timed_targets.hpp"
 #include "firmware/app/unit.hpp"
@@ -50,7 +52,17 @@ constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
     configuration::design, configuration::step_period_s, 0);
 
-using Unit = app::Unit<configuration::Parts, hal::timed::VolatilePages, app::InterruptedWord>;
+using Course = decltype(app::course_of<void>(configuration::target_steps));
+using Unit =
+    app::Unit<configuration::Parts, hal::timed::VolatilePages, app::InterruptedWord, 0, Course>;
+
+/// The next step has its target.
+template <class Targets>
+void advance(Targets& targets, Unit::Supervisor& supervisor) {
+  if constexpr (std::is_same_v<Course, app::OrderedTargets>) {
+    targets.advance(supervisor);
+  }
+}
 
 }  // namespace
 
@@ -58,7 +70,7 @@ int main() {
   hal::timed::VolatilePages flash;
   SilentLink bytes;
   hal::NoWatchdog watchdog;
-  Unit unit(design, flash);
+  Unit unit(design, flash, app::course_of<void>(configuration::target_steps));
   app::LinkService service(unit, bytes);
   auto& supervisor = unit.supervisor();
   using Supervisor = Unit::Supervisor;
@@ -66,11 +78,11 @@ int main() {
   app::TimedLoop loop(supervisor, board, watchdog, service);
   supervisor.restart();
   auto targets = app::schedule_of(configuration::target_steps);
-  targets.advance(supervisor);
+  advance(targets, supervisor);
   while (loop.control()) {
     board.send();
     loop.service();
-    targets.advance(supervisor);
+    advance(targets, supervisor);
   }
   return 0;
 }

@@ -14,7 +14,7 @@ int main() {
   controller.start();
   SONOGLIDE_BOARD_CLASS board;
   sonoglide::app::ControlLoop loop(controller, board);
-  auto targets = sonoglide::app::schedule_of(configuration::target_steps);
+  auto targets = sonoglide::app::schedule_of<SONOGLIDE_BOARD_CLASS>(configuration::target_steps);
   // For who measures the image: symbols of the size of what each part keeps, which is on the stack.
   // They stand where there is no memory.
   asm volatile inline(

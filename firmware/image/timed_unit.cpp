@@ -46,9 +46,11 @@ struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
 };
 
+using Course = decltype(app::course_of<Hardware::Board>(configuration::target_steps));
+
 /// Its processor is the only one.
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
-                       sonoglide::hal::trace_records<Hardware>>;
+                       sonoglide::hal::trace_records<Hardware>, Course>;
 
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
@@ -61,7 +63,7 @@ int main() {
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
-  Unit unit(design, flash);
+  Unit unit(design, flash, app::course_of<Hardware::Board>(configuration::target_steps));
   app::LinkService<Unit, Hardware::ByteLink,
                    sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>
       service(unit, bytes);

@@ -66,7 +66,7 @@ inline std::string frequency_step(const configure::ResonantDesign* resonance, co
 }
 
 template <class Scalar>
-TargetText texture_text(const configure::ControlDesign& design) {
+TargetText texture_text(double period_m, const configure::ControlDesign& design) {
   const configure::TextureDesign& texture = *design.texture;
   const configure::ResonantDesign* const resonance = design.resonance();
   std::string points;
@@ -77,14 +77,15 @@ TargetText texture_text(const configure::ControlDesign& design) {
   }
   const std::string steps =
       resonance == nullptr
-          ? fmt::format("EqualSteps> target_steps = {{\n    {{{}}}", texture.weight)
-          : fmt::format("WordedSteps> target_steps = {{\n    {{{}, {}}}", texture.weight,
-                        resonance->start_word);
+          ? fmt::format("EqualSteps, TexturePeriod> target_steps = {{\n    {{{}}}", texture.weight)
+          : fmt::format("WordedSteps, TexturePeriod> target_steps = {{\n    {{{}, {}}}",
+                        texture.weight, resonance->start_word);
   return {"firmware/app/texture.hpp",
-          fmt::format("inline constexpr Scalar texture_points[] = {{\n{}}};\n"
+          fmt::format("struct TexturePeriod {{\n  static constexpr double period_m = {:a};\n}};\n"
+                      "inline constexpr Scalar texture_points[] = {{\n{}}};\n"
                       "inline constexpr TextureTargets<Scalar, {},\n    {{{}, {}U, {}U}},\n"
                       "    texture_points, {}}};\n{}",
-                      points, steps, texture.period, texture.inverse, texture.lead,
+                      period_m, points, steps, texture.period, texture.inverse, texture.lead,
                       texture.values.size(), frequency_step(resonance, "second")),
           resonance == nullptr ? "" : " at the start"};
 }
@@ -93,7 +94,7 @@ TargetText texture_text(const configure::ControlDesign& design) {
 template <class Scalar>
 TargetText target_text(const scene::Scene& scene, const configure::ControlDesign& design) {
   if (design.texture) {
-    return texture_text<Scalar>(design);
+    return texture_text<Scalar>(scene.controller->texture->period_m, design);
   }
   const configure::ResonantDesign* const resonance = design.resonance();
   const std::string steps = target_steps<Scalar>(scene, design);

@@ -122,12 +122,6 @@ const UnitBoard* find_unit_board(std::string_view name) {
 
 void require_unit(const scene::Scene& scene, const UnitBoard& board) {
   require_arithmetic(scene, board);
-  if (scene.controller && scene.controller->texture) {
-    throw configure::ConfigurationError(
-        "controller.target_texture",
-        "a unit has one target, which its host sets; allowed: target_friction_ratio or "
-        "target_friction_force_N in its place");
-  }
 }
 
 fs::path build_unit(const UnitBoard& board, const std::string& header) {

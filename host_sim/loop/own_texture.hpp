@@ -29,10 +29,14 @@ auto steps_of(const configure::ControlDesign& design) {
   }
 }
 
+/// The length of its period is in the numbers of the path.
+struct AnyPeriod {};
+
 template <class Scalar, class Vibration>
 class OwnTexture {
   using Targets =
-      app::TextureTargets<Scalar, decltype(steps_of<Vibration>(configure::ControlDesign{}))>;
+      app::TextureTargets<Scalar, decltype(steps_of<Vibration>(configure::ControlDesign{})),
+                          AnyPeriod>;
   using Schedule = decltype(app::schedule_of(std::declval<const Targets&>()));
 
  public:

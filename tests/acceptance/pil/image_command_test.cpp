@@ -139,7 +139,7 @@ TEST_F(ImageCommandTest, WhatCannotBeAUnitIsNamedByItsKey) {
   const std::string emulated = image_of("target_step", "mps2-an386");
   for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
            {image_of("table_1_open_loop", "pico"), ": controller: missing; required: "},
-           {image_of("fingertip", "mps2-an386"), ": controller.target_texture: "},
+           {image_of("fingertip", "mps2-an386"), ": sensor.vibration: "},
            {image_of("target_step_float64", "pico2"), ": controller.arithmetic: "},
            {image_of("target_step", "pico"), ": controller.arithmetic: "},
            {image_of("damped_step", "mps2-an386"), ": sensor.vibration: "},

@@ -134,6 +134,14 @@ TEST(WordedSteps, AreAsLongAsTheWordOfTheStartOverTheirOwn) {
   }
 }
 
+struct Period {
+  static constexpr double period_m = 1e-3;
+};
+
+/// A board that counts no distance.
+struct Nobody {
+} nobody;
+
 struct Told {
   std::vector<double> targets;
   template <class Scalar>
@@ -159,7 +167,7 @@ TYPED_TEST(TextureOf, FollowsTheStraightLinesBetweenItsPoints) {
   for (const double value : values) {
     points.push_back(numeric::from_real<Scalar>(value));
   }
-  const TextureTargets<Scalar, EqualSteps> targets{
+  const TextureTargets<Scalar, EqualSteps, Period> targets{
       {path.weight}, path.parameters, points.data(), static_cast<std::uint16_t>(points.size())};
   auto schedule = schedule_of(targets);
   Told controller;
@@ -178,7 +186,7 @@ TYPED_TEST(TextureOf, FollowsTheStraightLinesBetweenItsPoints) {
     hal::Sample sample{};
     sample.fresh = i % 10 != 3;  // one that is missing says nothing
     sample.sliding_velocity = static_cast<std::int32_t>(random());
-    schedule.pass(sample);
+    schedule.pass(sample, nobody);
     speed = sample.fresh ? sample.sliding_velocity * 0x1p-31 : speed;
   }
   const double rounding = sizeof(Scalar) == 2 ? 1e-4 : 1e-7;
@@ -187,11 +195,126 @@ TYPED_TEST(TextureOf, FollowsTheStraightLinesBetweenItsPoints) {
   }
 }
 
+/// A board whose encoder has 1 um to a count, and whose count wraps on the way.
+struct Encoder {
+  static constexpr double travel_counts_per_m = 1e6;
+  std::int64_t counted = 0;
+  std::uint32_t travel() const { return static_cast<std::uint32_t>(counted); }
+};
+static_assert(hal::counts_travel<Encoder> && !hal::counts_travel<Nobody> &&
+              !hal::counts_travel<void>);
+
+/// Any count at all, forward and backward: the place is the exact sum modulo the period.
+RC_GTEST_PROP(CountedPath, IsTheSumOfAllCountsModuloThePeriod, ()) {
+  const double counts = std::exp2(*rc::gen::inRange(3000, 30'000) / 1000.0);
+  const CountedPath path = counted_path(counts);
+  RC_ASSERT(path.path.period > std::int64_t{1} << 58);
+  RC_ASSERT(path.path.period <= std::int64_t{1} << 59);
+  RC_ASSERT(path.path.period ==
+            static_cast<std::int64_t>(counts * static_cast<double>(path.encoder.count)));
+  RC_ASSERT(path.path.inverse ==
+            static_cast<std::uint32_t>((Wide{1} << 90) / Wide{path.path.period}));
+  TexturePath walked(path.path);
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  Wide sum = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto counted =
+        static_cast<std::int32_t>(static_cast<std::int64_t>(random()) >> (32 + random() % 32));
+    walked.advance_counted(counted, path.encoder);
+    sum += Wide{counted} * Wide{path.encoder.count};
+    RC_ASSERT(walked.distance() == static_cast<std::int64_t>(modulo(sum, path.path.period)));
+  }
+}
+
+struct ShortPeriod {
+  static constexpr double period_m = 0.125e-3;
+};
+/// 123 4567 / 10 000 counts.
+struct OddPeriod {
+  static constexpr double period_m = 0.1234567e-3;
+};
+
+template <class Scalar, class Period>
+TextureTargets<Scalar, EqualSteps, Period> sawtooth(const std::vector<Scalar>& points,
+                                                    const Path& path) {
+  return {{path.weight}, path.parameters, points.data(), static_cast<std::uint16_t>(points.size())};
+}
+
+/// A kilometre in steps of up to 20 mm, one in a hundred of them back: a thousand million counts. The targets
+/// are those of the rational distance.
+template <class Scalar, class Period>
+void expect_exact_over_a_kilometre(std::int64_t period_counts, std::int64_t over) {
+  const Path path = path_of(0.01);
+  const std::vector<double> values{0.1, 0.2, 0.4, 0.3};
+  std::vector<Scalar> points;
+  for (const double value : values) {
+    points.push_back(numeric::from_real<Scalar>(value));
+  }
+  const auto targets = sawtooth<Scalar, Period>(points, path);
+  auto schedule = schedule_of<Encoder>(targets);
+  Encoder encoder;
+  Told controller;
+  std::mt19937_64 random(1);
+  hal::Sample sample{};
+  sample.fresh = true;
+  while (encoder.counted < 1'000'000'000) {
+    const auto step = static_cast<std::int64_t>(random() % 20'000);
+    encoder.counted += step % 100 == 0 ? -step : step;
+    schedule.pass(sample, encoder);
+    schedule.advance(controller);
+  }
+  const Wide place = modulo(Wide{encoder.counted} * over, period_counts);
+  const double turns = static_cast<double>(place) / static_cast<double>(period_counts);
+  const double corner = turns * static_cast<double>(values.size());
+  const auto before = static_cast<std::size_t>(corner);
+  const double expected =
+      values[before] +
+      (corner - std::floor(corner)) * (values[(before + 1) % values.size()] - values[before]);
+  EXPECT_NEAR(controller.targets.back(), expected, sizeof(Scalar) == 2 ? 1e-4 : 1e-7);
+}
+
+TYPED_TEST(TextureOf, IsExactOverAKilometreThatTheBoardCounts) {
+  expect_exact_over_a_kilometre<TypeParam, ShortPeriod>(125, 1);
+  expect_exact_over_a_kilometre<TypeParam, OddPeriod>(1'234'567, 10'000);
+}
+
+/// Whatever the velocity says; it leads, as ever. What is missing is its sample, not its distance.
+TYPED_TEST(TextureOf, LiesAlongTheCountOfTheBoard) {
+  using Scalar = TypeParam;
+  constexpr double advance = 0.03;
+  constexpr double lead = 4.5;
+  const Path path = path_of(advance, lead);
+  const std::vector<Scalar> points{numeric::from_real<Scalar>(0.1),
+                                   numeric::from_real<Scalar>(0.3)};
+  const auto targets = sawtooth<Scalar, Period>(points, path);
+  auto schedule = schedule_of<Encoder>(targets);
+  Encoder encoder;
+  encoder.counted = std::int64_t{0xffffff00} - (std::int64_t{1} << 32);  // just before 0
+  Told controller;
+  std::mt19937_64 random(1);
+  double speed = 0.0;
+  for (int i = 0; i < 5000; ++i) {
+    encoder.counted += static_cast<std::int64_t>(random() % 100) - 20;
+    hal::Sample sample{};
+    sample.fresh = i % 10 != 3;
+    sample.sliding_velocity = static_cast<std::int32_t>(random()) / 4;
+    schedule.pass(sample, encoder);
+    speed = sample.fresh ? sample.sliding_velocity * 0x1p-31 : speed;
+    schedule.advance(controller);
+    const double turns = static_cast<double>(encoder.counted) * 1e-3 + advance * lead * speed;
+    const double up = 2.0 * (turns - std::floor(turns));
+    ASSERT_NEAR(controller.targets.back(), 0.1 + 0.2 * (up < 1.0 ? up : 2.0 - up),
+                sizeof(Scalar) == 2 ? 1e-4 : 1e-7)
+        << i;
+  }
+}
+
 TYPED_TEST(TextureOf, GoesOnFromItsState) {
   using Scalar = TypeParam;
   const Path path = path_of(0.1, 3.0);
   const Scalar points[] = {numeric::from_real<Scalar>(0.1), numeric::from_real<Scalar>(0.4)};
-  const TextureTargets<Scalar, EqualSteps> targets{{path.weight}, path.parameters, points, 2};
+  const TextureTargets<Scalar, EqualSteps, Period> targets{
+      {path.weight}, path.parameters, points, 2};
   auto first = schedule_of(targets);
   auto second = schedule_of(targets);
   Told told;
@@ -201,14 +324,14 @@ TYPED_TEST(TextureOf, GoesOnFromItsState) {
   sample.sliding_velocity = 1 << 29;
   for (int i = 0; i < 100; ++i) {
     first.advance(told);
-    first.pass(sample);
+    first.pass(sample, nobody);
   }
   second.set_state(first.state());
   for (int i = 0; i < 100; ++i) {
     first.advance(told);
     second.advance(again);
-    first.pass(sample);
-    second.pass(sample);
+    first.pass(sample, nobody);
+    second.pass(sample, nobody);
   }
   EXPECT_TRUE(std::equal(again.targets.begin(), again.targets.end(), told.targets.begin() + 100));
 }

@@ -1,18 +1,23 @@
-/// A unit of a scene does what `run` does, command by command; and a restart is like new.
+/// A unit of a scene does what `run` does, command by command; and a restart is like new. One with a texture
+/// follows it as `run` does; its place goes on whatever the unit does.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/ordered_targets.hpp"
+#include "firmware/app/texture.hpp"
 #include "firmware/app/unit.hpp"
 #include "hal/board.hpp"
 #include "hal/timed/volatile_pages.hpp"
@@ -93,15 +98,28 @@ template <class Parts>
 using PortOfParts =
     PortOf<SampleOf<control::Controller<Parts>>, DriveOf<control::Controller<Parts>>>;
 
+/// Of the board of a unit in a test, who has no encoder.
+struct NoEncoder {};
+
+/// One carrier period.
+template <class UnitT, class Sample>
+const typename UnitT::Supervisor::Drive& step(UnitT& unit, const Sample& sample) {
+  NoEncoder board;
+  unit.supervisor().note_service();
+  const auto& drive = unit.supervisor().step(sample);
+  unit.supervisor().pass(sample, board);
+  return drive;
+}
+
 /// A unit that was told to start, and that is sent each target. Its service never ends.
-template <class Parts>
+template <class Parts, class Course = OrderedTargets>
 class UnitPort : public PortOfParts<Parts> {
   using Base = PortOfParts<Parts>;
 
  public:
   /// @param full_scale  of a target: 1 of a friction ratio, of a force that of its sensor [N]
-  UnitPort(const FieldDesign<Parts>& design, double full_scale)
-      : full_scale_(full_scale), unit(design, pages_) {
+  UnitPort(const FieldDesign<Parts>& design, double full_scale, const Course& course = Course())
+      : full_scale_(full_scale), unit(design, pages_, course) {
     restart(unit);
   }
 
@@ -112,15 +130,14 @@ class UnitPort : public PortOfParts<Parts> {
 
  private:
   typename Base::Drive answer(const typename Base::Sample& sample) override {
-    unit.supervisor().note_service();
-    return unit.supervisor().step(sample);
+    return step(unit, sample);
   }
 
   Pages pages_;
   double full_scale_;
 
  public:
-  Unit<Parts, Pages> unit;
+  Unit<Parts, Pages, std::atomic, 0, Course> unit;
 };
 
 template <class Drive>
@@ -154,8 +171,7 @@ auto answers(UnitT& unit, const std::vector<Sample>& samples) {
   restart(unit);
   std::vector<typename UnitT::Supervisor::Drive> drives;
   for (const Sample& sample : samples) {
-    unit.supervisor().note_service();
-    drives.push_back(unit.supervisor().step(sample));
+    drives.push_back(step(unit, sample));
   }
   return drives;
 }
@@ -176,23 +192,129 @@ void expect_drive_limit_holds(const FieldDesign<Parts>& design,
   }
 }
 
+/// A controller beside the place on its texture, which moves whether the controller runs or not.
+template <class Parts, class Targets>
+class Textured {
+  using Design = FieldDesign<Parts>;
+  using Scalar = typename Parts::Scalar;
+
+ public:
+  using Drive = DriveOf<typename Design::Controller>;
+
+  Textured(const Design& design, const Targets& targets)
+      : controller_(design.controller_parameters(design.presets())),
+        schedule_(schedule_of(targets)) {
+    controller_.settle_at(design.designed());
+  }
+  void start() { controller_.start(); }
+  void stop() { controller_.stop(); }
+  void skip() { schedule_.next(controller_); }
+
+  template <class Sample>
+  Drive step(const Sample& sample) {
+    NoEncoder board;
+    const Scalar there = schedule_.next(controller_);
+    controller_.set_target(ordered_ == Scalar{} ? there : ordered_);
+    const Drive drive = drive_of(
+        controller_.template step<control::Numbers::finite>(measurement_of<Scalar>(sample)));
+    schedule_.pass(sample, board);
+    return drive;
+  }
+  template <class Sample>
+  void pass(const Sample& sample) {
+    NoEncoder board;
+    skip();
+    schedule_.pass(sample, board);
+  }
+  void order(Scalar target) { ordered_ = target; }
+
+ private:
+  typename Design::Controller controller_;
+  decltype(schedule_of(std::declval<const Targets&>())) schedule_;
+  Scalar ordered_{};
+};
+
+/// Orders a target, which is in force in the carrier period of the sample.
+template <class UnitT, class Sample>
+auto step_with_target(UnitT& unit, std::uint32_t millionths, const Sample& sample) {
+  EXPECT_EQ(unit.set_target(millionths, unit.supervisor().faults().count()), Answer::taken);
+  const auto drive = step(unit, sample);
+  EXPECT_EQ(unit.order_end(), OrderEnd::done);
+  EXPECT_EQ(unit.target(), millionths);
+  return drive;
+}
+
+/// Through a run, a stop, a run again, a target of the host's and the texture again.
+template <class Parts, class Targets, class Sample>
+void expect_texture_goes_on(const FieldDesign<Parts>& design, const Targets& targets,
+                            const std::vector<Sample>& samples) {
+  UnitPort port(design, 1.0, course_of<void>(targets));
+  Textured<Parts, Targets> expected(design, targets);
+  expected.skip();  // the period of the restart has no sample
+  expected.start();
+  std::vector<typename Textured<Parts, Targets>::Drive> found;
+  std::vector<typename Textured<Parts, Targets>::Drive> wanted;
+  const auto run = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      wanted.push_back(expected.step(samples[i]));
+      found.push_back(step(port.unit, samples[i]));
+    }
+  };
+  const std::size_t part = samples.size() / 4;
+  EXPECT_EQ(port.unit.target(), 0U);
+  run(0, part);
+  // It stands, and the sliding goes on; of the restart's period only the place counts.
+  port.unit.stop();
+  for (std::size_t i = part; i < 2 * part; ++i) {
+    expected.pass(samples[i]);
+    if (i == part) {
+      expected.stop();
+    }
+    EXPECT_EQ(step(port.unit, samples[i]).amplitude, 0);
+  }
+  EXPECT_EQ(port.unit.restart(0), Answer::taken);
+  expected.pass(samples[2 * part]);
+  expected.start();
+  step(port.unit, samples[2 * part]);
+  EXPECT_EQ(port.unit.order_end(), OrderEnd::done);
+  run(2 * part + 1, 3 * part);
+  const auto order = [&](std::uint32_t millionths, std::size_t i) {
+    expected.order(design.target(millionths));
+    wanted.push_back(expected.step(samples[i]));
+    found.push_back(step_with_target(port.unit, millionths, samples[i]));
+  };
+  order(300'000, 3 * part);
+  run(3 * part + 1, 3 * part + part / 2);
+  order(0, 3 * part + part / 2);
+  run(3 * part + part / 2 + 1, samples.size());
+  expect_same(found, wanted);
+}
+
 /// @param changes  TABLE.KEY=VALUE, of the scene
-template <class Parts>
+/// @param targets  as they are compiled in
+template <class Parts, class Targets>
 void expect_unit_and_run_agree(const std::string& file, const std::vector<std::string>& changes,
-                               const FieldDesign<Parts>& design) {
+                               const FieldDesign<Parts>& design, const Targets& targets) {
   const configure::Experiment experiment = experiment::read_file(file, changes);
   const scene::Scene& scene = experiment.plant;
   const auto control = loop::make_control_port(experiment.nominal, *experiment.design);
   Recorded<PortOfParts<Parts>> run(*control);
   const loop::RunResult by_run = loop::run(scene, *experiment.design, run);
-  UnitPort<Parts> port(design, scene.highest_target());
+  const auto course = course_of<void>(targets);
+  UnitPort port(design, scene.highest_target(), course);
   Recorded<PortOfParts<Parts>> unit(port);
   const loop::RunResult by_unit = loop::run(scene, *experiment.design, unit);
   expect_same(unit.drives, run.drives);
   EXPECT_EQ(by_unit.control->trace_hash, by_run.control->trace_hash);
+  if (scene.controller->texture) {
+    if constexpr (!std::is_same_v<decltype(course), const OrderedTargets>) {
+      expect_texture_goes_on(design, targets, run.samples);
+    }
+    return;
+  }
   expect_drive_limit_holds(design, run.samples);
+  UnitPort fresh(design, scene.highest_target(), course);
   // After a stop and after a fault it is as one that has never run.
-  UnitPort<Parts> fresh(design, scene.highest_target());
   fresh.unit.stop();
   pass(fresh.unit);
   fresh.set_target(scene.controller->targets().back().value);
