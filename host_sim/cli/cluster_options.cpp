@@ -13,11 +13,7 @@ namespace {
 
 CLI::Option* add_folder(CLI::App& command, const char* name, std::string& folder,
                         const char* meaning) {
-  return command.add_option(name, folder, meaning)
-      ->type_name("DIR")
-      ->check([](const std::string& text) {
-        return text.empty() ? std::string("is empty; allowed: a folder") : std::string();
-      });
+  return command.add_option(name, folder, meaning)->type_name("DIR")->check(not_empty("a folder"));
 }
 
 /// Calls; what shards that do not belong together throw becomes an error of the option.

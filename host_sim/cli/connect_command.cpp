@@ -3,11 +3,19 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
+#include "host_sim/cli/program.hpp"
+#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/emulated/emulated_unit.hpp"
+#include "host_sim/emulated/image.hpp"
+#include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/process/serial_port.hpp"
@@ -21,6 +29,8 @@ using std::chrono_literals::operator""ms;
 
 struct ConnectOptions {
   std::string device;
+  SceneOptions scene;  ///< of the unit of an emulated board
+  std::string board;   ///< emulated; empty: at the device
   bool quiet = false;
 };
 
@@ -56,16 +66,39 @@ class TypedLines {
   std::string text_;
 };
 
+/// @throws process::FileError  nobody can read it
 void print(const std::string& line) {
   fmt::print("{}\n", process::printable(line));
-  std::fflush(stdout);
+  flush_output();
+}
+
+/// Where the sources and their examples are, or, of an installed program, where the examples are.
+std::string usual_scene() {
+  const std::filesystem::path tree = emulated::source_tree();
+  const std::filesystem::path file = tree / "host_sim/scenes/target_step.toml";
+  return std::filesystem::exists(file) ? file : tree.parent_path() / "scenes/target_step.toml";
+}
+
+/// Builds the unit of a scene and starts it.
+std::unique_ptr<emulated::EmulatedUnit> started(const ConnectOptions& options) {
+  const SceneInput input(options.scene);
+  const emulated::UnitBoard& board = *emulated::find_unit_board(options.board);
+  const emulated::EmulatedBoard& emulator = *emulated::find_board(options.board);
+  const std::string header = unit_header(input, input.read(), board);
+  require_emulator(emulator);
+  return std::make_unique<emulated::EmulatedUnit>(
+      emulator, input.with_places([&] { return emulated::build_unit(board, header); }));
 }
 
 /// @throws process::ProcessError  the device is absent, silent or no unit; or commands of a script
 ///         were refused
 void connect(const ConnectOptions& options) {
-  process::SerialPort port(options.device);
-  unit::UnitLink link(port);
+  // The time of an emulator on a busy machine is not that of a board.
+  constexpr auto patience_with_emulator = 5000ms;
+  const auto own_unit =
+      options.board.empty() ? std::unique_ptr<emulated::EmulatedUnit>() : started(options);
+  process::SerialPort port(own_unit ? own_unit->device() : options.device);
+  unit::UnitLink link(port, own_unit ? patience_with_emulator : unit::UnitLink::usual_patience);
   unit::Console console(link);
   const bool typed = isatty(STDIN_FILENO) == 1;
   if (typed && !options.quiet) {
@@ -93,7 +126,7 @@ void connect(const ConnectOptions& options) {
   }
   if (!typed && console.refused() > 0) {
     throw process::ProcessError(fmt::format("{}: commands that were not carried out: {}",
-                                            process::printable(options.device), console.refused()));
+                                            process::printable(port.device()), console.refused()));
   }
 }
 
@@ -103,11 +136,34 @@ void add_connect_command(CLI::App& program) {
   const auto options = std::make_shared<ConnectOptions>();
   CLI::App* command = program.add_subcommand(
       "connect", "Talk to a running unit: commands are lines of the standard input");
-  command->add_option("device", options->device, "Serial device of the unit")
-      ->required()
-      ->type_name("DEVICE");
+  command
+      ->add_option("device", options->device,
+                   "Serial device of the unit; with --emulated a closed-loop scene, its TOML file "
+                   "[target_step.toml of the examples]")
+      ->type_name("DEVICE")
+      ->check(not_empty("a serial device"));
+  CLI::Option* board = command
+                           ->add_option("--emulated", options->board,
+                                        "In place of a device an emulated board: its unit is built "
+                                        "and runs until the end of the input")
+                           ->type_name("BOARD")
+                           ->check(check_board);
+  add_set_option(*command, options->scene)->needs(board);
   command->add_flag("--quiet", options->quiet, "Prints the answers to commands alone");
-  command->callback([options] { connect(*options); });
+  command->callback([options] {
+    if (options->device.empty() && options->board.empty()) {
+      throw CLI::RequiredError("DEVICE or --emulated");
+    }
+    if (!options->board.empty()) {
+      options->scene.path =
+          options->device.empty() ? usual_scene() : std::exchange(options->device, {});
+      if (options->scene.path == "-") {
+        throw CLI::ValidationError(
+            "device", "- is the input that has the commands; allowed: the scene in a file");
+      }
+    }
+    connect(*options);
+  });
 }
 
 }  // namespace sonoglide::cli

@@ -14,11 +14,9 @@
 #include "host_sim/emulated/image.hpp"
 #include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/emulated/unit_steps.hpp"
-#include "host_sim/long_work/slurm.hpp"
 #include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
 namespace {
@@ -97,14 +95,13 @@ void print_unit(const emulated::UnitBoard& board, const emulated::UnitFile& file
                 const std::filesystem::path& path, const emulated::ImageCost& cost,
                 const std::string& steps) {
   fmt::print("{}: {}, for {} ({})\n", steps.empty() ? "image in lockstep" : "unit",
-             process::printable(path.string()), board.name, board.core);
+             shown_path(path), board.name, board.core);
   fmt::print("size: {} B flash, {} B static RAM, deepest stack {}\n", cost.size.flash_bytes,
              cost.size.ram_bytes, stack_text(cost.stack));
   if (!steps.empty()) {
     fmt::print("step: {}\n", steps);
   }
-  fmt::print("{} {}{}{}\n", board.is_emulated ? "run: " : "load:", file.before,
-             long_work::shell_word(process::printable(path.string())), file.after);
+  fmt::print("{} {}\n", board.is_emulated ? "run: " : "load:", load_command(file, path));
 }
 
 emulated::UnitBoard board_of(const ImageOptions& options) {
@@ -121,12 +118,9 @@ void image(const ImageOptions& options) {
   const emulated::UnitFile& file = file_of(options, board);
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();
-  const std::string header = input.with_places([&] {
-    if (!options.lockstep) {
-      emulated::require_unit(experiment.plant, board);
-    }
-    return emulated::controller_header(experiment);
-  });
+  const std::string header =
+      options.lockstep ? input.with_places([&] { return emulated::controller_header(experiment); })
+                       : unit_header(input, experiment, board);
   const std::filesystem::path path = path_of(options, experiment.plant.name, file);
   const std::filesystem::path absolute = std::filesystem::absolute(path);
   const std::string name = absolute.filename().string();
@@ -162,9 +156,7 @@ void add_image_command(CLI::App& program) {
           "--out", options->out,
           "The image [out/<scene name>_<board>/unit.uf2, lockstep.uf2, or .elf where a board takes none]")
       ->type_name("FILE.elf|.uf2|.bin")
-      ->check([](const std::string& file) {
-        return file.empty() ? std::string("is empty; allowed: a file") : std::string();
-      });
+      ->check(not_empty("a file"));
   command->add_flag("--lockstep", options->lockstep,
                     "In place of the unit the image that pil --port runs");
   command->add_flag("--quiet", options->quiet, "No notes, and no word on the image");

@@ -22,7 +22,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
                       (note.empty() ? std::string() : "; " + note))
       ->required()
       ->type_name("SCENE.toml");
-  command
+  add_set_option(command, options);
+}
+
+CLI::Option* add_set_option(CLI::App& command, SceneOptions& options) {
+  return command
       .add_option("--set", options.overrides,
                   "Replace or add one value of the scene, e.g. drive.frequency_Hz=61e3, or, "
                   "without a value, remove it; repeatable")
@@ -72,15 +76,19 @@ std::string folder_name(const std::string& scene_name) {
 void add_output_option(CLI::App& command, std::string& out, const std::string& contents) {
   command.add_option("--out", out, "Folder for " + contents)
       ->type_name("DIR")
-      ->check([](const std::string& folder) {
-        return folder.empty() ? std::string("is empty; allowed: a folder") : std::string();
-      });
+      ->check(not_empty("a folder"));
 }
 
 std::filesystem::path output_folder(const std::string& out, const std::string& scene_name,
                                     const std::string& suffix) {
   return out.empty() ? std::filesystem::path("out") / (folder_name(scene_name) + suffix)
                      : std::filesystem::path(out);
+}
+
+std::function<std::string(const std::string&)> not_empty(const std::string& allowed) {
+  return [allowed](const std::string& text) {
+    return text.empty() ? "is empty; allowed: " + allowed : std::string();
+  };
 }
 
 std::function<std::string(const std::string&)> one_of(const std::vector<std::string>& words) {

@@ -26,6 +26,9 @@ struct SceneOptions {
 /// @param note  what of the scene plays no part, or nothing
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& note = "");
 
+/// Adds `--set` alone.
+CLI::Option* add_set_option(CLI::App& command, SceneOptions& options);
+
 /// The scene that the options name, its text read once.
 class SceneInput {
  public:
@@ -72,6 +75,10 @@ std::filesystem::path output_folder(const std::string& out, const std::string& s
 
 /// Adds `--threads N`, 1 to 1024; 0 where it is not given: one for each core.
 void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// A check of an option that takes any text but none.
+/// @param allowed  what it takes
+std::function<std::string(const std::string&)> not_empty(const std::string& allowed);
 
 /// A check of an option that takes one of these words.
 std::function<std::string(const std::string&)> one_of(const std::vector<std::string>& words);

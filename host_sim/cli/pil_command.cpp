@@ -103,8 +103,9 @@ void add_pil_command(CLI::App& program) {
           ->check(check_any_board);
   command
       ->add_option("--port", options->port,
-                   "The serial device of a real board that holds the image SCENE_serial")
+                   "The serial device of a real board that holds what image --lockstep builds")
       ->type_name("DEVICE")
+      ->check(not_empty("a serial device"))
       ->excludes(board);
   add_output_option(*command, options->out,
                     "report.html and summary.json and, where the scene records anything, "

@@ -38,16 +38,6 @@ std::string command_line(int argument_count, const char* const* arguments) {
   return process::printable(line);
 }
 
-/// A full disk or a closed pipe shows only when the buffer goes out.
-void flush_output() {
-  errno = 0;
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw process::FileError(errno == 0 ? "standard output: cannot be written"
-                                        : "standard output: cannot be written: " +
-                                              std::generic_category().message(errno));
-  }
-}
-
 void parse_and_run(int argument_count, const char* const* arguments,
                    const std::vector<AddCommand>& command_list) {
   CLI::App program("Ultrasonic friction control: simulation of plant and controller", "sonoglide");
@@ -99,6 +89,15 @@ std::string hint(int argument_count, const char* const* arguments,
 }
 
 }  // namespace
+
+void flush_output() {
+  errno = 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw process::FileError(errno == 0 ? "standard output: cannot be written"
+                                        : "standard output: cannot be written: " +
+                                              std::generic_category().message(errno));
+  }
+}
 
 int run_program(int argument_count, const char* const* arguments,
                 const std::vector<AddCommand>& command_list) {

@@ -24,4 +24,8 @@ using AddCommand = void (*)(CLI::App& program);
 int run_program(int argument_count, const char* const* arguments,
                 const std::vector<AddCommand>& command_list);
 
+/// A full disk or a closed pipe shows only when the buffer goes out.
+/// @throws process::FileError  standard output cannot be written
+void flush_output();
+
 }  // namespace sonoglide::cli

@@ -10,9 +10,18 @@
 namespace sonoglide::emulated {
 
 void require_arithmetic(const scene::Scene& scene, const ImageBoard& board) {
-  const bool wanted =
-      scene.controller && scene.controller->arithmetic == scene::Arithmetic::float64;
-  if (!wanted || board.computes_double) {
+  if (!scene.controller) {
+    return;
+  }
+  const scene::Arithmetic arithmetic = scene.controller->arithmetic;
+  const bool is_double = arithmetic == scene::Arithmetic::float64;
+  if ((is_double || arithmetic == scene::Arithmetic::float32) && !board.computes_single) {
+    throw configure::ConfigurationError(
+        "controller.arithmetic",
+        fmt::format("the {} has no time for floating point; allowed: \"q31\", \"q15\"",
+                    board.name));
+  }
+  if (!is_double || board.computes_double) {
     return;
   }
   std::string capable;
@@ -43,9 +52,6 @@ void require_carrier_board(const scene::Scene& scene, const EmulatedBoard& board
       throw configure::ConfigurationError(key, fmt::format("the {} {}", board.name, finding));
     }
   };
-  require(controller.arithmetic == scene::Arithmetic::q31 ||
-              controller.arithmetic == scene::Arithmetic::q15,
-          "controller.arithmetic", "has no time for floating point; allowed: \"q31\", \"q15\"");
   require(!controller.vibration, "controller.vibration",
           "has no time to observe the vibration; remove it");
   require(controller.every_periods == 1, "controller.every_periods",

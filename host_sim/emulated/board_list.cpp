@@ -53,7 +53,7 @@ const std::vector<EmulatedBoard>& emulated_boards() {
 
 const std::vector<EmulatedBoard>& carrier_boards() {
   static const std::vector<EmulatedBoard> carriers = {
-      {{"pico", "Cortex-M0+", "arm-cortex-m0plus"}, "node", {}, 1.0, "_scene"}};
+      {{"pico", "Cortex-M0+", "arm-cortex-m0plus", false, false}, "node", {}, 1.0, "_scene"}};
   return carriers;
 }
 
@@ -88,6 +88,20 @@ std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
        {"-chardev", "stdio,id=line,mux=on,signal=off", "-serial", "chardev:line", "-echr", "256"}) {
     command.emplace_back(argument);
   }
+  return command;
+}
+
+std::vector<std::string> unit_emulator_command(const EmulatedBoard& board,
+                                               const std::string& image) {
+  std::vector<std::string> command{std::string(board.emulator)};
+  command.insert(command.end(), board.machine_arguments.begin(), board.machine_arguments.end());
+  // 2^n ns for an instruction.
+  const char* const time = board.name == "netduinoplus2" ? "shift=3" : "shift=5";
+  for (const char* argument :
+       {"-display", "none", "-monitor", "none", "-serial", "pty", "-icount", time, "-kernel"}) {
+    command.emplace_back(argument);
+  }
+  command.push_back(image);
   return command;
 }
 

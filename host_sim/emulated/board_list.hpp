@@ -13,6 +13,7 @@ struct ImageBoard {
   std::string_view core;         ///< for a reader
   std::string_view toolchain;    ///< file in tools/toolchains, without its ending
   bool computes_double = false;  ///< its floating-point unit does, so that float64 can be built
+  bool computes_single = true;   ///< fast enough for float32 in a carrier period
 };
 
 struct EmulatedBoard : ImageBoard {
@@ -42,6 +43,11 @@ std::vector<std::string> emulator_command(const EmulatedBoard& board, const std:
 /// byte as it is; semihosting still carries the exit code.
 std::vector<std::string> serial_emulator_command(const EmulatedBoard& board,
                                                  const std::string& image);
+
+/// The command that runs the image of a unit on the board's own timer, its serial line at a pseudo-terminal that
+/// the emulator names. Its processor is fast enough for a step in time.
+std::vector<std::string> unit_emulator_command(const EmulatedBoard& board,
+                                               const std::string& image);
 
 struct CrossTools {
   std::string prefix;   ///< of every program's name

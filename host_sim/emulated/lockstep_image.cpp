@@ -10,7 +10,7 @@ void LockstepImage::await_greeting() {
   std::uint8_t byte = 0;
   receive(&byte, 1);
   if (byte != lockstep::greeting) {
-    fail(fmt::format("greets with {}", byte));
+    fail(fmt::format("greets with {}, as no image of image --lockstep does", byte));
   }
   greeted_ = true;
 }

@@ -10,7 +10,10 @@ void SerialImage::receive(std::uint8_t* bytes, std::size_t size) {
   while (size > 0) {
     const std::size_t count = port_.receive(bytes, size, patience_);
     if (count == 0) {
-      fail(fmt::format("is silent for {} ms", patience_.count()));
+      fail(fmt::format("is silent for {} ms{}", patience_.count(),
+                       period() > 0 ? ""
+                                    : "; reset the board, which must hold what image --lockstep "
+                                      "builds of this scene"));
     }
     bytes += count;
     size -= count;

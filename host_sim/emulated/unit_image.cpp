@@ -1,6 +1,7 @@
 #include "host_sim/emulated/unit_image.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -26,39 +27,37 @@ constexpr std::string_view uf2 = ".uf2";
 std::vector<UnitBoard> boards_of_products() {
   constexpr std::string_view unit = "_unit";
   constexpr std::string_view copy = "cp ";
-  constexpr std::string_view nucleo = "openocd -f board/st_nucleo_g4.cfg -c \"program ";
-  constexpr std::string_view verify = " verify reset exit\"";
+  constexpr std::string_view nucleo = "openocd -f board/st_nucleo_g4.cfg -c ";
+  constexpr std::string_view verify = " verify reset exit";
   return {
-      {{"pico", "Cortex-M0+", "arm-cortex-m0plus"},
+      {{"pico", "Cortex-M0+", "arm-cortex-m0plus", false, false},
        unit,
        false,
        {{uf2, copy, " /media/$USER/RPI-RP2/"},
-        {elf, "openocd -f interface/cmsis-dap.cfg -f target/rp2040.cfg -c \"program ", verify},
+        {elf, "openocd -f interface/cmsis-dap.cfg -f target/rp2040.cfg -c ", verify, true},
         {bin, "picotool load -x ", ""}},
-       "rp2040"},
+       "rp2040",
+       "6 MHz / n, n from 97 on"},
       {{"pico2", "Cortex-M33", "arm-cortex-m33"},
        unit,
        false,
        {{uf2, copy, " /media/$USER/RP2350/"},
         {elf, "picotool load -x ", ""},
         {bin, "picotool load -x ", ""}},
-       "rp2350"},
+       "rp2350",
+       "3 MHz / n, n from 49 on"},
       {{"nucleo-g474re", "Cortex-M4F", "arm-cortex-m4f"},
        unit,
        false,
-       {{elf, nucleo, verify}, {bin, nucleo, " 0x08000000 verify reset exit\""}}},
+       {{elf, nucleo, verify, true}, {bin, nucleo, " 0x08000000 verify reset exit", true}},
+       "",
+       "84 MHz / n, n from 960 on"},
   };
 }
 
+/// What comes before the image.
 std::string emulator_begin(const EmulatedBoard& board) {
-  std::string command(board.emulator);
-  for (const std::string_view argument : board.machine_arguments) {
-    command += fmt::format(" {}", argument);
-  }
-  // 2^n ns for an instruction, so that a step is done in time.
-  const int shift = board.name == "netduinoplus2" ? 3 : 5;
-  return command +
-         fmt::format(" -display none -monitor none -serial pty -icount shift={} -kernel ", shift);
+  return fmt::format("{}", fmt::join(unit_emulator_command(board, ""), " "));
 }
 
 std::vector<UnitBoard> all_boards() {
@@ -87,15 +86,19 @@ std::optional<configure::ConfigurationError> refusal(const std::string& words,
   if (std::regex_search(words, found, asserted)) {
     const std::string message = found[1];
     if (std::regex_search(message, found, key)) {
-      return configure::ConfigurationError(found.str(),
-                                           fmt::format("{} ({})", message, board.name));
+      const bool of_carrier = found.str() == "drive.frequency_Hz" && !board.carriers.empty();
+      return configure::ConfigurationError(
+          found.str(),
+          fmt::format("{} ({}){}{}", message, board.name, of_carrier ? "; allowed: " : "",
+                      of_carrier ? board.carriers : ""));
     }
   } else if (std::regex_search(words, found, memory)) {
     return configure::ConfigurationError(
         "controller",
-        fmt::format("the unit is too large for the {}: {}; allowed: a scene with fewer parts, or "
-                    "another board",
-                    board.name, found.str()));
+        fmt::format(
+            "the unit is too large for the {}: {}; allowed: another controller.arithmetic, a "
+            "scene with fewer parts, or another board",
+            board.name, found.str()));
   }
   return std::nullopt;
 }

@@ -16,6 +16,8 @@ struct UnitFile {
   std::string_view ending;  ///< with its dot
   std::string_view before;  ///< of the command that loads it: what comes before the file,
   std::string_view after;   ///< and behind it
+  /// `program`, the file and what is behind it are one word: a script in Tcl.
+  bool in_script = false;
 };
 
 struct UnitBoard : ImageBoard {
@@ -23,6 +25,7 @@ struct UnitBoard : ImageBoard {
   bool is_emulated;                ///< one of emulated_boards()
   std::vector<UnitFile> files;     ///< the usual one first
   std::string_view uf2_chip = {};  ///< as hal/pico/write_uf2 calls it, where there is such a file
+  std::string_view carriers = {};  ///< fixed frequencies that it makes, as its page has them
 
   /// @return the kind of a file's ending, or null
   const UnitFile* file(std::string_view ending) const;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -20,6 +21,9 @@ SerialPort::SerialPort(const std::string& device)
       line_(open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
   if (line_.number() < 0) {
     fail(std::strerror(errno));
+  }
+  if (!lock(line_, LOCK_EX | LOCK_NB)) {
+    fail("is used by another program");
   }
   termios settings{};
   if (tcgetattr(line_.number(), &settings) != 0) {

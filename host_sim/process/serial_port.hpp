@@ -11,13 +11,14 @@
 namespace sonoglide::process {
 
 /// A serial device or a pseudo-terminal: 8 data bits, no parity, one stop bit, no flow control, bytes
-/// as they are. What was received before it was opened is dropped.
+/// as they are. What was received before it was opened is dropped. One at a time has a device: two would each
+/// get a part of what comes.
 class SerialPort {
  public:
   static constexpr unsigned baud = 115200;
 
   /// @param device  its path
-  /// @throws ProcessError  it cannot be opened, or is no serial line
+  /// @throws ProcessError  it cannot be opened, is no serial line, or another program of this kind has it
   explicit SerialPort(const std::string& device);
 
   const std::string& device() const { return device_; }

@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <system_error>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/process/scratch_folder.hpp"
 #include "host_sim/unit/unit_trace.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
@@ -24,21 +26,48 @@ namespace {
 
 using app::parameter_labels;
 
-constexpr const char* help_text =
-    "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, set NAME VALUE, "
-    "stream CHANNEL ... [every N], stream off, "
-    "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE";
+/// A text as a count of units of a parameter's last decimal place.
+struct ReadValue {
+  std::uint32_t count = 0;
+  std::string error;  ///< why it is none; empty where it is one
+};
 
-bool read_value(const std::string& text, int places, std::uint32_t& value) {
-  return encoding::read_decimal(text.data(), text.size(), places, value);
+/// @return the largest count of what is beyond every range: the unit names its own
+ReadValue read_value(const std::string& text, int places) {
+  static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
+  static const std::regex trailing_zeros("\\.?0*$");
+  if (!std::regex_match(text, number)) {
+    return {0, fmt::format("\"{}\" is no number", text)};
+  }
+  const bool negative = text.front() == '-';
+  const std::string digits = text.substr(negative ? 1 : 0);
+  const std::size_t point = digits.find('.');
+  const std::string fraction = point == std::string::npos ? "" : digits.substr(point);
+  if (std::regex_replace(fraction, trailing_zeros, "").size() >
+      static_cast<std::size_t>(places) + 1) {
+    return {0, places == 0 ? fmt::format("\"{}\" is no whole number", text)
+                           : fmt::format("\"{}\" has more than {} decimal places", text, places)};
+  }
+  std::uint32_t count = UINT32_MAX;
+  encoding::read_decimal(digits.data(), digits.size(), places, count);
+  return {negative && count > 0 ? UINT32_MAX : count, ""};
+}
+
+/// A line, without blanks that say nothing.
+std::string shown(const std::string& name, const std::vector<std::string>& words) {
+  return words.empty() ? name : fmt::format("{} {}", name, fmt::join(words, " "));
+}
+
+std::string range_of(const link::ParameterValue& value) {
+  return fmt::format("{} to {}{}", decimal(value.lowest, value.decimal_places),
+                     decimal(value.highest, value.decimal_places),
+                     parameter_labels[value.parameter].unit);
 }
 
 std::string text_of(const link::ParameterValue& value) {
-  const app::ParameterLabel& label = parameter_labels[value.parameter];
-  const auto number = [&](std::uint32_t count) { return decimal(count, value.decimal_places); };
-  return fmt::format("{} {}, compiled in {}; allowed is {} to {}{}", label.name,
-                     number(value.value), number(value.preset), number(value.lowest),
-                     number(value.highest), label.unit);
+  return fmt::format("{} {}, compiled in {}; allowed is {}", parameter_labels[value.parameter].name,
+                     decimal(value.value, value.decimal_places),
+                     decimal(value.preset, value.decimal_places), range_of(value));
 }
 
 std::string text_of(const link::Telemetry& told) {
@@ -69,83 +98,72 @@ std::string text_of(const link::Identity& told) {
                      told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
 }
 
-/// A file that appears whole or not at all.
-bool write_whole(const std::filesystem::path& file, const std::string& content) try {
-  const process::ScratchFolder folder(file.has_parent_path() ? file.parent_path() : ".");
-  const std::filesystem::path staged = folder.path() / "trace.csv";
-  std::ofstream stream(staged);
-  stream << content;
-  stream.close();
-  std::error_code error;
-  if (stream) {
-    std::filesystem::rename(staged, file, error);
-  }
-  return stream && !error;
-} catch (const process::ScratchError&) {
-  return false;
+}  // namespace
+
+/// What a line may begin with, and what carries it out.
+struct Console::Command {
+  const char* name;
+  const char* usage;  ///< every form of it
+  std::size_t fewest_words;
+  std::size_t most_words;  ///< behind the name
+  Lines (*carry_out)(Console&, const Words&);
+};
+
+const std::vector<Console::Command>& Console::commands() {
+  static const std::vector<Command> all = {
+      {"identity", "identity", 0, 0,
+       [](Console& on, const Words&) { return Lines{on.identity()}; }},
+      {"status", "status", 0, 0, [](Console& on, const Words&) { return on.status(); }},
+      {"target", "target NUMBER", 1, 1,
+       [](Console& on, const Words& words) { return on.set_target(words[0]); }},
+      {"stop", "stop", 0, 0, [](Console& on, const Words&) { return on.stop(); }},
+      {"restart", "restart", 0, 0, [](Console& on, const Words&) { return on.restart(); }},
+      {"confirm", "confirm", 0, 0, [](Console& on, const Words&) { return on.confirm(); }},
+      {"log", "log", 0, 0, [](Console& on, const Words&) { return on.log(); }},
+      {"params", "params, params NAME", 0, 1,
+       [](Console& on, const Words& words) {
+         return words.empty() ? on.list_parameters() : on.list_parameter(words[0]);
+       }},
+      {"set", "set NAME VALUE", 2, 2,
+       [](Console& on, const Words& words) { return on.set_parameter(words[0], words[1]); }},
+      {"stream", "stream CHANNEL ... [every N], stream off", 0, SIZE_MAX,
+       [](Console& on, const Words& words) { return on.stream(words); }},
+      {"trace", "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE", 0,
+       SIZE_MAX, [](Console& on, const Words& words) { return on.trace(words); }},
+      {"help", "help", 0, 0, [](Console&, const Words&) { return Lines{help_text()}; }},
+  };
+  return all;
 }
 
-}  // namespace
+std::string Console::help_text() {
+  std::vector<const char*> usages;
+  for (const Command& command : commands()) {
+    usages.push_back(command.usage);
+  }
+  return fmt::format("{}", fmt::join(usages, ", "));
+}
 
 std::vector<std::string> Console::carry_out(const std::string& line) {
   std::istringstream text(line);
-  std::vector<std::string> words;
+  Words words;
   for (std::string word; text >> word;) {
     words.push_back(word);
   }
-  const std::string command = words.empty() ? "" : words[0];
-  if (command == "stream") {
-    return stream({words.begin() + 1, words.end()});
+  if (words.empty()) {
+    return {};
   }
-  if (command == "trace") {
-    return trace({words.begin() + 1, words.end()});
+  const std::string name = words.front();
+  words.erase(words.begin());
+  const auto& all = commands();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Command& each) { return each.name == name; });
+  if (found == all.end()) {
+    return refuse(fmt::format("\"{}\": unknown; there are: {}", shown(name, words), help_text()));
   }
-  switch (words.size()) {
-    case 0:
-      return {};
-    case 1:
-      if (command == "identity") {
-        return {identity()};
-      }
-      if (command == "status") {
-        return status();
-      }
-      if (command == "stop") {
-        return stop();
-      }
-      if (command == "restart") {
-        return restart();
-      }
-      if (command == "confirm") {
-        return confirm();
-      }
-      if (command == "log") {
-        return log();
-      }
-      if (command == "params") {
-        return list_parameters();
-      }
-      if (command == "help") {
-        return {help_text};
-      }
-      break;
-    case 2:
-      if (command == "target") {
-        return set_target(words[1]);
-      }
-      if (command == "params") {
-        return list_parameter(words[1]);
-      }
-      break;
-    case 3:
-      if (command == "set") {
-        return set_parameter(words[1], words[2]);
-      }
-      break;
-    default:
-      break;
+  if (words.size() < found->fewest_words || words.size() > found->most_words) {
+    return refuse_usage(name, words);
   }
-  return refuse(fmt::format("unknown; there are: {}", help_text));
+  return found->carry_out(*this, words);
 }
 
 std::string Console::identity() {
@@ -179,11 +197,11 @@ Console::Lines Console::status() {
 
 Console::Lines Console::set_target(const std::string& text) {
   constexpr auto target = static_cast<std::size_t>(app::Parameter::target);
-  std::uint32_t ratio = 0;
-  if (!read_value(text, parameter_labels[target].decimal_places, ratio)) {
-    ratio = UINT32_MAX;  // the unit names its range
+  const ReadValue value = read_value(text, parameter_labels[target].decimal_places);
+  if (!value.error.empty()) {
+    return refuse_value(target, value.error);
   }
-  const auto result = unit_.ask<link::TargetSet>(link::SetTarget{ratio});
+  const auto result = unit_.ask<link::TargetSet>(link::SetTarget{value.count});
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     return refuse(*refusal, target);
   }
@@ -251,13 +269,15 @@ Console::Lines Console::list_parameter(const std::string& name) {
 
 Console::Lines Console::set_parameter(const std::string& name, const std::string& text) {
   const std::size_t parameter = parameter_named(name);
-  std::uint32_t value = UINT32_MAX;  // the unit names its range
-  if (parameter < app::parameter_count) {
-    read_value(text, parameter_labels[parameter].decimal_places, value);
-  }
   link::WriteParameter request{};
   request.parameter = static_cast<std::uint8_t>(parameter);
-  request.value = value;
+  if (parameter < app::parameter_count) {
+    const ReadValue value = read_value(text, parameter_labels[parameter].decimal_places);
+    if (!value.error.empty()) {
+      return refuse_value(parameter, value.error);
+    }
+    request.value = value.count;
+  }
   const auto result = unit_.ask<link::ParameterWritten>(request, longest_save);
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     return refuse(*refusal, parameter);
@@ -267,15 +287,14 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
                               parameter_labels[parameter].decimal_places))};
 }
 
-Console::Lines Console::stream(const std::vector<std::string>& words) {
+Console::Lines Console::stream(const Words& words) {
   const std::optional<link::Stream> wanted = stream_of(words);
   if (!wanted) {
-    return refuse(
-        fmt::format("stream CHANNEL ... [every N], or stream off; channels: {}; N: 1 to 65535",
-                    channel_names()));
+    return refuse_usage("stream", words,
+                        fmt::format("; channels: {}; N: 1 to 65535", channel_names()));
   }
   // That of before ends first, so that its samples are not taken for those of the next.
-  const auto ended = unit_.ask<link::Streaming>(link::Stream{0, 1});
+  const auto ended = unit_.stream({0, 1});
   if (const auto* refusal = std::get_if<link::Refusal>(&ended)) {
     return refuse(*refusal, 0);
   }
@@ -283,7 +302,7 @@ Console::Lines Console::stream(const std::vector<std::string>& words) {
   if (wanted->channels == 0) {
     lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
   } else {
-    const auto begun = unit_.ask<link::Streaming>(*wanted);
+    const auto begun = unit_.stream(*wanted);
     if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
       return refuse(*refusal, 0);
     }
@@ -292,7 +311,7 @@ Console::Lines Console::stream(const std::vector<std::string>& words) {
   return lines;
 }
 
-Console::Lines Console::trace(const std::vector<std::string>& words) {
+Console::Lines Console::trace(const Words& words) {
   const auto told = unit_.ask<link::TraceState>(link::ReadTraceState{});
   const auto* const state = std::get_if<link::TraceState>(&told);
   if (state == nullptr) {
@@ -306,10 +325,7 @@ Console::Lines Console::trace(const std::vector<std::string>& words) {
   }
   const auto wanted = trace_of(words, static_cast<std::uint16_t>(state->records / 2));
   if (!wanted || wanted->before >= state->records) {
-    return refuse(
-        fmt::format("trace, trace now, trace on fault|target [STEPS_BEFORE], or trace save FILE; "
-                    "STEPS_BEFORE: 0 to {}",
-                    state->records - 1));
+    return refuse_usage("trace", words, fmt::format("; STEPS_BEFORE: 0 to {}", state->records - 1));
   }
   const auto armed = unit_.ask<link::TraceArmed>(*wanted);
   if (const auto* refusal = std::get_if<link::Refusal>(&armed)) {
@@ -318,16 +334,26 @@ Console::Lines Console::trace(const std::vector<std::string>& words) {
   return {"trace waiting"};
 }
 
+/// Where it cannot be written is known before the trace is read.
 Console::Lines Console::save_trace(const link::TraceState& state, const std::string& file) {
   if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
     return refuse(text_of(state) + ": nothing to save");
   }
-  std::error_code error;
-  if (std::filesystem::exists(file, error)) {
-    return refuse(process::printable(file) + ": is there already");
+  const std::filesystem::path path = std::filesystem::absolute(file);
+  const std::string name = path.filename().string();
+  std::error_code unknown;
+  if (name.empty() || std::filesystem::is_directory(path, unknown)) {
+    return refuse(process::printable(file) + ": is a folder; allowed: a new file");
   }
-  if (!write_whole(file, read_trace(unit_, state))) {
-    return refuse(process::printable(file) + ": cannot be written");
+  if (std::filesystem::exists(std::filesystem::symlink_status(path, unknown))) {
+    return refuse(process::printable(file) + ": is there already; allowed: a new file");
+  }
+  try {
+    output::OutputFolder folder(path.parent_path(), {name});
+    folder.write(name, read_trace(unit_, state));
+    folder.commit();
+  } catch (const process::FileError& error) {
+    return refuse(error.what());
   }
   return {fmt::format("{} steps saved", state.records)};
 }
@@ -338,6 +364,24 @@ link::Telemetry Console::telemetry() {
     throw process::ProcessError("the unit does not tell its state: " + words_of(*refusal, 0));
   }
   return std::get<link::Telemetry>(result);
+}
+
+Console::Lines Console::refuse_usage(const std::string& name, const Words& words,
+                                     const std::string& ranges) {
+  const auto& all = commands();
+  const auto command =
+      std::find_if(all.begin(), all.end(), [&](const Command& each) { return each.name == name; });
+  return refuse(fmt::format("\"{}\": allowed: {}{}", shown(name, words), command->usage, ranges));
+}
+
+Console::Lines Console::refuse_value(std::size_t parameter, const std::string& reason) {
+  const app::ParameterLabel& label = parameter_labels[parameter];
+  const auto result =
+      unit_.ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)});
+  const auto* const told = std::get_if<link::ParameterValue>(&result);
+  return refuse(told == nullptr
+                    ? fmt::format("{}: {}", label.name, reason)
+                    : fmt::format("{}: {}; allowed is {}", label.name, reason, range_of(*told)));
 }
 
 Console::Lines Console::refuse(const std::string& reason) {

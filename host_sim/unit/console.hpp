@@ -39,6 +39,10 @@ class Console {
 
  private:
   using Lines = std::vector<std::string>;
+  using Words = std::vector<std::string>;
+  struct Command;
+  static const std::vector<Command>& commands();
+  static std::string help_text();
 
   Lines status();
   Lines set_target(const std::string& text);
@@ -50,11 +54,15 @@ class Console {
   Lines list_parameter(const std::string& name);
   Lines set_parameter(const std::string& name, const std::string& text);
 
-  Lines stream(const std::vector<std::string>& words);
-  Lines trace(const std::vector<std::string>& words);
+  Lines stream(const Words& words);
+  Lines trace(const Words& words);
   Lines save_trace(const link::TraceState& state, const std::string& file);
 
   link::Telemetry telemetry();
+  /// Of a command with other words than it takes.
+  Lines refuse_usage(const std::string& name, const Words& words, const std::string& ranges = "");
+  /// Of a text that is no value of a parameter.
+  Lines refuse_value(std::size_t parameter, const std::string& reason);
   Lines refuse(const std::string& reason);
   /// @param parameter  of the value that was asked for
   Lines refuse(const link::Refusal& refusal, std::size_t parameter);

@@ -37,6 +37,24 @@ UnitLink::UnitLink(process::SerialPort& port, std::chrono::milliseconds patience
   if (greeted->session != session) {
     fail("answers another host");
   }
+  stream({0, 1});  // where the unit has none, it says so
+  streamed_.clear();
+}
+
+UnitLink::~UnitLink() {
+  if (!streams_) {
+    return;
+  }
+  try {
+    const link::WireFrame wire = link::encode(link::frame_of(link::Stream{0, 1}, ++sequence_));
+    port_.send(wire.bytes.data(), wire.size);
+  } catch (const process::ProcessError&) {  // the device is gone, and its stream with it
+  }
+}
+
+UnitLink::Result<link::Streaming> UnitLink::stream(const link::Stream& stream) {
+  streams_ = stream.channels != 0;
+  return ask<link::Streaming>(stream);
 }
 
 link::Frame UnitLink::exchange(link::Frame request, std::chrono::milliseconds patience) {

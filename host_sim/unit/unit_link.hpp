@@ -10,6 +10,7 @@
 
 #include "firmware/link/frame.hpp"
 #include "firmware/link/messages.hpp"
+#include "firmware/link/stream_messages.hpp"
 #include "host_sim/process/serial_port.hpp"
 
 namespace sonoglide::unit {
@@ -23,11 +24,17 @@ class UnitLink {
  public:
   static constexpr std::chrono::milliseconds usual_patience{400};
 
-  /// Begins a session with a hello, so that a silent or foreign device is told at once.
+  /// Begins a session with a hello, so that a silent or foreign device is told at once. Ends a stream that a
+  /// host before has left.
   /// @param port      outlives this
   /// @param patience  how long an answer may take: longer in an emulator on a busy machine
   /// @throws process::ProcessError  the device answers nothing, or nothing that a unit says
   explicit UnitLink(process::SerialPort& port, std::chrono::milliseconds patience = usual_patience);
+
+  /// Ends the stream, if there is one, as far as a word without an answer does.
+  ~UnitLink();
+  UnitLink(const UnitLink&) = delete;
+  UnitLink& operator=(const UnitLink&) = delete;
 
   template <class Answer>
   using Result = std::variant<Answer, link::Refusal>;
@@ -47,6 +54,10 @@ class UnitLink {
     }
     return refusal;
   }
+
+  /// Begins a stream, or ends it where it has no channel.
+  /// @throws process::ProcessError  no answer came
+  Result<link::Streaming> stream(const link::Stream& stream);
 
   /// The samples of a stream that have come since the last call, in their order; of more than 65536 the
   /// latest. It does not wait.
@@ -71,6 +82,7 @@ class UnitLink {
   bool heard_bytes_ = false;
   bool heard_frame_ = false;
   bool other_version_ = false;
+  bool streams_ = false;
 };
 
 }  // namespace sonoglide::unit

@@ -50,7 +50,7 @@ inline const std::vector<Command> command_table = {
      {},
      {},
      Effort::emulator},
-    {"connect", "", "", {"--quiet"}, "", {}, {}, Effort::device},
+    {"connect", "", "", {"--emulated", "--set", "--quiet"}, "", {}, {}, Effort::device},
     {"commission",
      "closed.toml",
      "",

@@ -83,6 +83,13 @@ TEST(UsageTest, AFileThatLooksLikeAnOptionIsRecognised) {
       0U);
 }
 
+TEST(UsageTest, EmptyNamesAreRefused) {
+  expect_refused("connect ''", "device: is empty; allowed: a serial device");
+  expect_refused("pil a.toml --port ''", "--port: is empty; allowed: a serial device");
+  expect_refused("image a.toml --board pico --out ''", "--out: is empty; allowed: a file");
+  expect_refused("run a.toml --out ''", "--out: is empty; allowed: a folder");
+}
+
 TEST(UsageTest, ValuesOutOfAListNameTheList) {
   expect_refused("paper --figure twelve",
                  "--figure: \"twelve\" is no figure; allowed: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12");

@@ -125,8 +125,9 @@ TEST_F(ImageCommandTest, TheBytesOfANucleoBeginWithStackAndReset) {
   const Outcome outcome = built(image_of("target_step", "nucleo-g474re") + " --out unit.bin");
   EXPECT_NE(outcome.out.find("step: not known: no emulator"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("load: openocd "), std::string::npos);
-  EXPECT_NE(outcome.out.find("program unit.bin 0x08000000 verify reset exit\"\n"),
-            std::string::npos);
+  EXPECT_NE(outcome.out.find("-c 'program unit.bin 0x08000000 verify reset exit'\n"),
+            std::string::npos)
+      << outcome.out;
   EXPECT_EQ(numbers_of(outcome.out, "size:").size(), 3U) << outcome.out;
   const std::string bin = folder_.read("unit.bin");
   EXPECT_EQ(word(bin, 0) >> 24, 0x20U);
@@ -137,19 +138,23 @@ TEST_F(ImageCommandTest, TheBytesOfANucleoBeginWithStackAndReset) {
 TEST_F(ImageCommandTest, WhatCannotBeAUnitIsNamedByItsKey) {
   const std::string pico = image_of("target_step_q31", "pico");
   const std::string emulated = image_of("target_step", "mps2-an386");
-  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
-           {image_of("table_1_open_loop", "pico"), ": controller: missing; required: "},
-           {image_of("fingertip", "mps2-an386"), ": sensor.vibration: "},
-           {image_of("target_step_float64", "pico2"), ": controller.arithmetic: "},
-           {image_of("target_step", "pico"), ": controller.arithmetic: "},
-           {image_of("damped_step", "mps2-an386"), ": sensor.vibration: "},
-           {image_of("damped_step", "pico2"), ": sensor.vibration: "},
-           {pico + " --set drive.frequency_Hz=59e3", "--set:1:1: drive.frequency_Hz: "},
-           {pico + " --set drive.delay_periods=2", "--set:1:1: drive.delay_periods: "},
-           {pico + " --set drive.interpolation=linear", "--set:1:1: drive.interpolation: "},
-           {pico + " --set controller.every_periods=2", "--set:1:1: controller.every_periods: "},
-           {"image '" SONOGLIDE_SOURCE_TREE "/tests/boards/slow_mode.toml' --board nucleo-g474re",
-            ": drive.bias_limit_N: "}}) {
+  for (
+      const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+          {image_of("table_1_open_loop", "pico"), ": controller: missing; required: "},
+          {image_of("fingertip", "mps2-an386"), ": sensor.vibration: "},
+          {image_of("target_step_float64", "pico2"), ": controller.arithmetic: "},
+          {image_of("target_step", "pico"),
+           ": controller.arithmetic: the pico has no time for floating point; allowed: \"q31\", \"q15\"\n"},
+          {image_of("target_step_float64", "pico"),
+           ": controller.arithmetic: the pico has no time for floating point; allowed: \"q31\", \"q15\"\n"},
+          {image_of("damped_step", "mps2-an386"), ": sensor.vibration: "},
+          {image_of("damped_step", "pico2"), ": sensor.vibration: "},
+          {pico + " --set drive.frequency_Hz=59e3", "(pico); allowed: 6 MHz / n, n from 97 on\n"},
+          {pico + " --set drive.delay_periods=2", "--set:1:1: drive.delay_periods: "},
+          {pico + " --set drive.interpolation=linear", "--set:1:1: drive.interpolation: "},
+          {pico + " --set controller.every_periods=2", "--set:1:1: controller.every_periods: "},
+          {"image '" SONOGLIDE_SOURCE_TREE "/tests/boards/slow_mode.toml' --board nucleo-g474re",
+           ": drive.bias_limit_N: "}}) {
     expect_refused(arguments + " --out unit.elf", 2, message);
   }
 }

@@ -12,6 +12,7 @@
 #include "host_sim/process/pipe.hpp"
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
+#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
 
 namespace sonoglide::acceptance::pil_at_port_test {
 namespace {
@@ -88,7 +89,22 @@ TEST_F(PilAtPortTest, TheImageOfAnotherSceneIsTold) {
   EXPECT_NE(outcome.err.find("gave other drive commands"), std::string::npos) << outcome.err;
 }
 
+TEST_F(PilAtPortTest, OfASilentBoardItIsSaidWhatToDo) {
+  const unit::PseudoTerminal silent;
+  const Outcome outcome = folder_.run("pil " + scene + " --quiet --port " + silent.device());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.err,
+            silent.device() +
+                ": carrier period 0: the board is silent for 10000 ms; reset the board, "
+                "which must hold what image --lockstep builds of this scene\n");
+  EXPECT_TRUE(folder_.entries().empty());
+}
+
 TEST_F(PilAtPortTest, WhatIsNoSerialDeviceIsRefused) {
+  const Outcome unnamed = folder_.run("pil " + scene + " --port ''");
+  EXPECT_EQ(unnamed.exit_code, 2);
+  EXPECT_NE(unnamed.err.find("--port: is empty; allowed: a serial device\n"), std::string::npos)
+      << unnamed.err;
   for (const char* device : {"/dev/null", "nothing_here"}) {
     const Outcome outcome = folder_.run("pil " + scene + " --port " + device);
     EXPECT_EQ(outcome.exit_code, 1);

@@ -12,8 +12,10 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "host_sim/process/pipe.hpp"
 #include "image_cache.hpp"
 #include "tests/acceptance/program/started_program.hpp"
 #include "tests/common/scenes.hpp"
@@ -90,7 +92,13 @@ bool compiles(const std::vector<std::string>& processes) {
 /// The program in the middle of a long run.
 class PilInterruptionTest : public testing::Test {
  protected:
-  PilInterruptionTest() { use_image_cache(); }
+  PilInterruptionTest()
+      : PilInterruptionTest(
+            {"pil", "scene.toml", "--board", "mps2-an386", "--quiet", "--out", "out"}) {}
+  explicit PilInterruptionTest(std::vector<std::string> arguments)
+      : arguments_(std::move(arguments)) {
+    use_image_cache();
+  }
   void start() {
     folder_.write("scene.toml", long_scene);
     program_ = fork();
@@ -126,17 +134,25 @@ class PilInterruptionTest : public testing::Test {
   ScratchFolder folder_;
   pid_t program_ = 0;
   pid_t emulator_ = 0;
+  process::Pipe input_ = process::make_pipe();  ///< of the program
 
  private:
   [[noreturn]] void become_the_program() const {
     heed_signals();
     const int errors = open((folder_.path() / "errors").c_str(), O_WRONLY | O_CREAT, 0600);
-    if (chdir(folder_.path().c_str()) == 0 && dup2(errors, STDERR_FILENO) >= 0) {
-      execl(SONOGLIDE_PROGRAM, "sonoglide", "pil", "scene.toml", "--board", "mps2-an386", "--quiet",
-            "--out", "out", nullptr);
+    std::vector<const char*> words{"sonoglide"};
+    for (const std::string& argument : arguments_) {
+      words.push_back(argument.c_str());
+    }
+    words.push_back(nullptr);
+    if (chdir(folder_.path().c_str()) == 0 && dup2(errors, STDERR_FILENO) >= 0 &&
+        dup2(input_.read_end.number(), STDIN_FILENO) >= 0) {
+      execv(SONOGLIDE_PROGRAM, const_cast<char* const*>(words.data()));
     }
     _exit(127);
   }
+
+  std::vector<std::string> arguments_;
 };
 
 TEST_F(PilInterruptionTest, EndsInOrderOnCtrlCWhileTheImageIsBuilt) {
@@ -186,6 +202,50 @@ TEST_F(PilInterruptionTest, ReportsAnEmulatorThatDies) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1);
   EXPECT_NE(errors().find("the emulator ended with signal 9"), std::string::npos) << errors();
+  expect_no_output();
+}
+
+/// The program in the middle of a talk with the unit of an emulated board.
+class ConnectInterruptionTest : public PilInterruptionTest {
+ protected:
+  ConnectInterruptionTest()
+      : PilInterruptionTest({"connect", "scene.toml", "--emulated", "mps2-an386"}) {}
+};
+
+TEST_F(ConnectInterruptionTest, EndsInOrderWithItsInput) {
+  start_to_run();
+  const std::string lines = "restart\nstatus\n";
+  ASSERT_GT(write(input_.write_end.number(), lines.data(), lines.size()), 0);
+  input_.write_end.close();
+  const int status = end_of_the_program();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << errors();
+  EXPECT_TRUE(emulator_is_gone());
+  EXPECT_EQ(errors(), "");
+  expect_no_output();
+}
+
+TEST_F(ConnectInterruptionTest, EndsInOrderOnCtrlC) {
+  start_to_run();
+  kill(program_, SIGINT);
+  const int status = end_of_the_program();
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT);
+  EXPECT_TRUE(emulator_is_gone());
+  expect_no_output();
+}
+
+TEST_F(ConnectInterruptionTest, LeavesNoEmulatorWhenKilled) {
+  start_to_run();
+  kill(program_, SIGKILL);
+  end_of_the_program();
+  EXPECT_TRUE(emulator_is_gone());
+}
+
+TEST_F(ConnectInterruptionTest, ReportsAnEmulatorThatDies) {
+  start_to_run();
+  kill(emulator_, SIGKILL);
+  const int status = end_of_the_program();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  EXPECT_NE(errors(), "");
   expect_no_output();
 }
 

@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host_sim/emulated/unit_image.hpp"
@@ -52,6 +53,15 @@ TEST(BoardList, EachBoardHasItsLineAmongTheBoardsAndEachLineItsFolder) {
   const std::regex folder("FOLDER (hal/[a-z0-9_]+)");
   for (std::sregex_iterator each(lines.begin(), lines.end(), folder), end; each != end; ++each) {
     EXPECT_TRUE(std::filesystem::is_directory(source_folder + "/" + each->str(1))) << each->str(1);
+  }
+}
+
+TEST(BoardList, APageHasTheCarriersOfItsBoard) {
+  for (const auto& [board, folder] : std::vector<std::pair<const char*, const char*>>{
+           {"pico", "pico"}, {"pico2", "pico/rp2350"}, {"nucleo-g474re", "nucleo_g474re"}}) {
+    std::ifstream file(source_folder + "/hal/" + folder + "/README.md");
+    const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    EXPECT_NE(page.find(find_unit_board(board)->carriers), std::string::npos) << board;
   }
 }
 

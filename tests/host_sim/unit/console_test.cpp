@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +26,7 @@
 
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
+#include "firmware/link/trace_messages.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
 #include "host_sim/unit/unit_words.hpp"
@@ -168,9 +171,10 @@ TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
   for (const char* wrong : {"stream", "stream speed", "stream target every 0", "stream every 5",
                             "stream target every", "stream target every 65536", "stream off off"}) {
     EXPECT_EQ(line_of(wrong),
-              "stream CHANNEL ... [every N], or stream off; channels: friction_force, "
-              "sliding_velocity, amplitude, commanded_ratio, target, state; N: 1 to 65535")
-        << wrong;
+              fmt::format("\"{}\": allowed: stream CHANNEL ... [every N], stream off; channels: "
+                          "friction_force, sliding_velocity, amplitude, commanded_ratio, target, "
+                          "state; N: 1 to 65535",
+                          wrong));
   }
 }
 
@@ -227,7 +231,7 @@ TEST_F(TraceConsole, SavesTheStepsAroundANewTarget) {
   const csv::Row& last = table.rows().back();
   EXPECT_NEAR(last.number("friction_force"), 0.7 * app::TimedBoard::friction, 1e-3);
   EXPECT_EQ(last.text("state"), "running");
-  EXPECT_EQ(line_of("trace save " + file_), file_ + ": is there already");
+  EXPECT_EQ(line_of("trace save " + file_), file_ + ": is there already; allowed: a new file");
   EXPECT_EQ(console_.refused(), 1U);
 }
 
@@ -237,15 +241,14 @@ TEST_F(TraceConsole, SavesWhatComesNowAndNamesWhatThereIs) {
   EXPECT_EQ(saved_trace().rows().front().text("state"), "off");
   EXPECT_EQ(cause_, "now");
   EXPECT_EQ(trigger_, 0U);
-  EXPECT_EQ(line_of("trace save /nowhere/trace.csv"), "/nowhere/trace.csv: cannot be written");
   EXPECT_EQ(line_of("trace on fault target 199"), "trace waiting");
   for (const char* wrong :
        {"trace on", "trace on fault 200", "trace on 5", "trace soon", "trace now 5",
         "trace on fault 5 target", "trace save", "trace on target -1"}) {
     EXPECT_EQ(line_of(wrong),
-              "trace, trace now, trace on fault|target [STEPS_BEFORE], or trace save FILE; "
-              "STEPS_BEFORE: 0 to 199")
-        << wrong;
+              fmt::format("\"{}\": allowed: trace, trace now, trace on fault|target "
+                          "[STEPS_BEFORE], trace save FILE; STEPS_BEFORE: 0 to 199",
+                          wrong));
   }
 }
 
@@ -278,19 +281,69 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("target 1.5"), "target: allowed is 0 to 1");
   EXPECT_EQ(line_of("target -0.5"), "target: allowed is 0 to 1");
   EXPECT_EQ(line_of("set host_timeout 61"), "host_timeout: allowed is 0 to 60 s");
-  EXPECT_EQ(line_of("set stuck_periods 9.5"), "stuck_periods: allowed is 10 to 65535");
+  EXPECT_EQ(line_of("set stuck_periods 9"), "stuck_periods: allowed is 10 to 65535");
   EXPECT_EQ(line_of("set gain 1").find("unknown parameter; there are: target, drive_limit,"), 0U);
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
       "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
       "set NAME VALUE, stream CHANNEL ... [every N], stream off, trace, trace now, "
-      "trace on fault|target [STEPS_BEFORE], trace save FILE";
+      "trace on fault|target [STEPS_BEFORE], trace save FILE, help";
   EXPECT_EQ(line_of("help"), commands);
-  for (const char* unknown : {"go", "target", "stop now", "set a", "set a 1 2"}) {
-    EXPECT_EQ(line_of(unknown), "unknown; there are: " + commands) << unknown;
-  }
-  EXPECT_EQ(console_.refused(), 11U);
+  EXPECT_EQ(line_of(" go  now "), "\"go now\": unknown; there are: " + commands);
+  EXPECT_EQ(console_.refused(), 7U);
   EXPECT_EQ(ask("  "), Lines{});
+}
+
+TEST_F(ConsoleTest, ToldWhatACommandTakes) {
+  EXPECT_EQ(line_of("target"), "\"target\": allowed: target NUMBER");
+  EXPECT_EQ(line_of("stop now"), "\"stop now\": allowed: stop");
+  EXPECT_EQ(line_of("set a"), "\"set a\": allowed: set NAME VALUE");
+  EXPECT_EQ(line_of("set a 1 2"), "\"set a 1 2\": allowed: set NAME VALUE");
+  EXPECT_EQ(line_of("params a b"), "\"params a b\": allowed: params, params NAME");
+  EXPECT_EQ(console_.refused(), 5U);
+}
+
+TEST_F(ConsoleTest, KnowsWhatIsNoNumber) {
+  EXPECT_EQ(line_of("set drive_limit 0.8x"),
+            "drive_limit: \"0.8x\" is no number; allowed is 0 to 1");
+  EXPECT_EQ(line_of("set stuck_periods 20.5"),
+            "stuck_periods: \"20.5\" is no whole number; allowed is 10 to 65535");
+  EXPECT_EQ(line_of("target 0.1234567"),
+            "target: \"0.1234567\" has more than 6 decimal places; allowed is 0 to 1");
+  for (const std::string text : {"x", "-", ".", "1e-1", "0.5.1", "--1", "0,5"}) {
+    EXPECT_EQ(line_of("target " + text),
+              "target: \"" + text + "\" is no number; allowed is 0 to 1");
+  }
+  EXPECT_EQ(line_of("target 99999999999999999999"), "target: allowed is 0 to 1");
+  EXPECT_EQ(line_of("target -0.000001"), "target: allowed is 0 to 1");
+  EXPECT_EQ(console_.refused(), 12U);
+  EXPECT_EQ(line_of("target -0").find("state off, target 0,"), 0U);
+  EXPECT_EQ(line_of("target 0.50000000").find("state off, target 0.5,"), 0U);
+  EXPECT_EQ(line_of("set stuck_periods 20.0"), "stuck_periods 20, saved");
+  EXPECT_EQ(console_.refused(), 12U);
+}
+
+TEST_F(ConsoleTest, AStreamDoesNotOutliveItsHost) {
+  ask("stream amplitude");  // by a host that ends without a word
+  {
+    UnitLink link(port_);
+    Console console(link);
+    for (int i = 0; i < 20; ++i) {
+      console.carry_out("status");
+      EXPECT_EQ(console.take_rows(), Lines{});
+    }
+    console.carry_out("stream amplitude");
+    while (console.take_rows().empty()) {
+      console.carry_out("status");
+    }
+  }
+  using std::chrono_literals::operator""ms;
+  std::uint8_t bytes[4096];
+  int silent = 0;
+  for (int i = 0; i < 1000 && silent < 5; ++i) {
+    silent = port_.receive(bytes, sizeof bytes, 20ms) == 0 ? silent + 1 : 0;
+  }
+  EXPECT_EQ(silent, 5);
 }
 
 // Each host begins with a number of its own, and none is told what another one was told.
@@ -332,6 +385,11 @@ class FakeUnit {
   Device served_{[this] { serve(); }};
 };
 
+link::Frame refused_as_unknown(const link::Frame& request) {
+  const auto unknown = static_cast<std::uint8_t>(link::Reason::unknown_request);
+  return link::frame_of(link::Refusal{request.kind, unknown, 0, 0}, request.sequence);
+}
+
 // It refuses the number of the new host by the last one of the old host. Either answer comes in the
 // third try.
 TEST(UnitLinkTest, IsPatientWithASlowUnitThatAnotherHostHasLeft) {
@@ -340,7 +398,9 @@ TEST(UnitLinkTest, IsPatientWithASlowUnitThatAnotherHostHasLeft) {
   const FakeUnit unit(terminal, [&](const link::Frame& request) {
     const std::uint16_t number = request.sequence;
     link::Hello hello{};
-    EXPECT_TRUE(link::read(request, hello));
+    if (!link::read(request, hello)) {
+      return refused_as_unknown(request);
+    }
     std::this_thread::sleep_for(5 * UnitLink::usual_patience / 2);
     const auto out_of_turn = static_cast<std::uint8_t>(link::Reason::out_of_turn);
     const std::uint32_t last = static_cast<std::uint16_t>(number + 7);
@@ -350,6 +410,54 @@ TEST(UnitLinkTest, IsPatientWithASlowUnitThatAnotherHostHasLeft) {
   });
   process::SerialPort port(terminal.device());
   EXPECT_NO_THROW(UnitLink link(port));
+}
+
+// What a trace holds takes long to come over the line.
+TEST(SaveTest, APlaceThatCannotBeWrittenIsToldBeforeTheTraceIsRead) {
+  const PseudoTerminal terminal;
+  const FakeUnit unit(terminal, [](const link::Frame& request) {
+    const std::uint16_t number = request.sequence;
+    link::Hello hello{};
+    if (link::read(request, hello)) {
+      return link::frame_of(link::Greeted{hello.session, 0}, number);
+    }
+    link::ReadTraceState state{};
+    if (!link::read(request, state)) {
+      link::Stream stream{};
+      EXPECT_TRUE(link::read(request, stream)) << "the trace is read";
+      return refused_as_unknown(request);
+    }
+    const auto whole = static_cast<std::uint8_t>(link::TracePhase::whole);
+    return link::frame_of(link::TraceState{whole, 0, 1024, 1, 0, 7}, number);
+  });
+  process::SerialPort port(terminal.device());
+  UnitLink link(port);
+  Console console(link);
+  const auto answer = [&](const std::string& file) {
+    return console.carry_out("trace save " + file).at(0);
+  };
+  EXPECT_EQ(answer("/dev/null/trace.csv"), "/dev/null: is a file, not a folder");
+  EXPECT_EQ(answer("/dev"), "/dev: is a folder; allowed: a new file");
+  EXPECT_EQ(answer("/dev/nothing/"), "/dev/nothing/: is a folder; allowed: a new file");
+  EXPECT_EQ(answer("/dev/null"), "/dev/null: is there already; allowed: a new file");
+  EXPECT_EQ(answer("/proc/trace.csv").find("/proc: cannot be written: "), 0U);
+  EXPECT_EQ(console.refused(), 5U);
+}
+
+TEST_F(TraceConsole, AFullDiskIsTold) {
+  ask("trace now");
+  while (line_of("trace").find("trace of") != 0) {
+  }
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit full{1000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  const std::string answer = line_of("trace save " + file_);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(answer.find(": File too large"), std::string::npos) << answer;
+  EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
 std::string failure_at(const std::string& device) {
@@ -367,6 +475,15 @@ TEST(UnitLinkTest, SaysWhatIsNoUnit) {
   EXPECT_EQ(failure_at("/dev/null"), "/dev/null: is no serial line");
   const PseudoTerminal silent;
   EXPECT_EQ(failure_at(silent.device()), silent.device() + ": does not answer");
+}
+
+TEST(UnitLinkTest, OneHostAtATimeHasADevice) {
+  const PseudoTerminal terminal;
+  {
+    const process::SerialPort port(terminal.device());
+    EXPECT_EQ(failure_at(terminal.device()), terminal.device() + ": is used by another program");
+  }
+  EXPECT_EQ(failure_at(terminal.device()), terminal.device() + ": does not answer");
 }
 
 TEST(UnitLinkTest, KnowsAForeignDeviceByWhatItSays) {
@@ -401,10 +518,7 @@ TEST(UnitLinkTest, KnowsTheAnswerToAnotherHostsHello) {
 
 TEST(UnitLinkTest, KnowsAUnitWithoutAHello) {
   const PseudoTerminal terminal;
-  const FakeUnit unit(terminal, [](const link::Frame& request) {
-    const auto unknown = static_cast<std::uint8_t>(link::Reason::unknown_request);
-    return link::frame_of(link::Refusal{request.kind, unknown, 0, 0}, request.sequence);
-  });
+  const FakeUnit unit(terminal, refused_as_unknown);
   EXPECT_EQ(failure_at(terminal.device()),
             terminal.device() + ": knows no hello: its firmware is not of this program");
 }
