@@ -91,7 +91,8 @@ void add_commission_command(CLI::App& program) {
       "A running unit records its plant while it drives, and the scene's plant is fitted to that");
   command->add_option("device", options->device, "Serial device of the unit")
       ->required()
-      ->type_name("DEVICE");
+      ->type_name("DEVICE")
+      ->check(not_empty("a serial device"));
   add_scene_options(*command, options->scene);
   add_study_options(*command, options->study,
                     "commissioned.toml, identify.json, fit.csv and report.html [out/<scene "

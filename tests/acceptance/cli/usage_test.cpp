@@ -85,6 +85,7 @@ TEST(UsageTest, AFileThatLooksLikeAnOptionIsRecognised) {
 
 TEST(UsageTest, EmptyNamesAreRefused) {
   expect_refused("connect ''", "device: is empty; allowed: a serial device");
+  expect_refused("commission '' a.toml", "device: is empty; allowed: a serial device");
   expect_refused("pil a.toml --port ''", "--port: is empty; allowed: a serial device");
   expect_refused("image a.toml --board pico --out ''", "--out: is empty; allowed: a file");
   expect_refused("run a.toml --out ''", "--out: is empty; allowed: a folder");
