@@ -9,6 +9,7 @@
 #include "firmware/app/unit_names.hpp"
 #include "firmware/control/interface/names.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/unit/unit_trace.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::unit {
@@ -123,11 +124,7 @@ class Recording {
       std::this_thread::sleep_for(interval);
       state = require<link::TraceState>(link::ReadTraceState{});
     }
-    RecordedTrace trace{state.before, {}};
-    for (std::uint16_t i = 0; i < state.records; ++i) {
-      trace.records.push_back(require<link::TraceRecord>(link::ReadTraceRecord{i}));
-    }
-    return trace;
+    return {state.before, read_records(unit_, state)};
   }
 
   UnitLink& unit_;

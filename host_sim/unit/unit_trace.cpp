@@ -105,18 +105,27 @@ std::string text_of(const link::TraceState& state) {
   return "no trace";
 }
 
-std::string read_trace(UnitLink& unit, const link::TraceState& state) {
-  const auto extra = static_cast<link::TraceExtra>(state.extra);
-  std::string table = fmt::format(
-      "period,friction_force,sliding_velocity,amplitude,target,state,limit,fault,settling{}\n",
-      column_of(extra));
+std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceState& state) {
+  std::vector<link::TraceRecord> records;
   for (std::uint16_t i = 0; i < state.records; ++i) {
     const auto result = unit.ask<link::TraceRecord>(link::ReadTraceRecord{i});
     const auto* const record = std::get_if<link::TraceRecord>(&result);
     if (record == nullptr) {
       throw process::ProcessError("another host armed the trace");
     }
-    table += row_of(state.first_period + i, *record, extra) + "\n";
+    records.push_back(*record);
+  }
+  return records;
+}
+
+std::string read_trace(UnitLink& unit, const link::TraceState& state) {
+  const auto extra = static_cast<link::TraceExtra>(state.extra);
+  std::string table = fmt::format(
+      "period,friction_force,sliding_velocity,amplitude,target,state,limit,fault,settling{}\n",
+      column_of(extra));
+  std::uint32_t period = state.first_period;
+  for (const link::TraceRecord& record : read_records(unit, state)) {
+    table += row_of(period++, record, extra) + "\n";
   }
   return table;
 }

@@ -21,10 +21,13 @@ std::optional<link::ArmTrace> trace_of(const std::vector<std::string>& words,
 /// Where it stands, in words.
 std::string text_of(const link::TraceState& state);
 
+/// @param state  of the unit, whole
+/// @throws process::ProcessError  the unit does not answer, or another host armed it anew
+std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceState& state);
+
 /// A whole trace as CSV: a row for each step, oldest first, with the names of the columns above them. Force,
 /// velocity, amplitude and bias are parts of their full scales, exactly.
-/// @param state  of the unit, whole
-/// @throws process::ProcessError  the unit does not answer, or armed it anew
+/// @throws process::ProcessError  as read_records()
 std::string read_trace(UnitLink& unit, const link::TraceState& state);
 
 }  // namespace sonoglide::unit
