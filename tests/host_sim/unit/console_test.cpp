@@ -182,6 +182,12 @@ class TraceConsole : public ConsoleTest {
  protected:
   ~TraceConsole() override { std::filesystem::remove(file_); }
 
+  /// That the unit is in.
+  unsigned long period() {
+    const std::string status = line_of("status");
+    return std::stoul(status.substr(status.find("period ") + 7));
+  }
+
   /// Waits until the trace is whole, and saves it.
   csv::Table saved_trace() {
     std::string state = line_of("trace");
@@ -210,7 +216,8 @@ TEST_F(TraceConsole, SavesTheStepsAroundANewTarget) {
   EXPECT_EQ(line_of("trace"), "no trace");
   ask("restart");
   EXPECT_EQ(line_of("trace on target 30"), "trace waiting");
-  for (int i = 0; i < 5; ++i) {
+  const unsigned long armed = period();
+  while (period() < armed + 30) {  // as many as are to be kept
     EXPECT_EQ(line_of("trace"), "trace waiting");
   }
   ask("target 0.7");
