@@ -61,7 +61,7 @@ bool keeps_harmonics(const scene::Scene& scene, const NaturalMode& mode) {
 /// A limit cycle behind a delay of D periods keeps the sign of its error for 2 D + 1 of them; twice that, and two
 /// more, is an error that lasts.
 AdaptiveGain gain_that_adapts(const scene::Scene& scene, double delay) {
-  constexpr double part_of_band = 0.25;
+  constexpr double part_of_band = 0.125;
   AdaptiveGain found;
   found.least_part = 0.05;
   found.shrink = 0.7;

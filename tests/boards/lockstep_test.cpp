@@ -24,6 +24,7 @@
 #include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/period_drive.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/sensor.hpp"
 #include "host_sim/process/child_process.hpp"
@@ -57,7 +58,8 @@ std::vector<std::string> emulate(const std::string& board, const std::string& im
 class SensedPlant {
  public:
   SensedPlant(const scene::Scene& scene, const configure::ControlDesign& design)
-      : period_s_(1.0 / scene.drive->frequency_Hz),
+      : scene_(scene),
+        period_s_(1.0 / scene.drive->frequency_Hz),
         rate_(two_pi * scene.drive->frequency_Hz),
         plant_(loop::make_plant_port(scene)),
         sensor_(scene.sensor, design.scales) {}
@@ -66,8 +68,12 @@ class SensedPlant {
   hal::Sample advance(const loop::Period& period, double amplitude_N) {
     const double duration_s = period_s_;
     const double gain = period.end_velocity_m_per_s - period.begin_velocity_m_per_s;
-    const loop::Stretch stretch{
-        duration_s, 0.0, rate_, amplitude_N, period.begin_velocity_m_per_s, gain / duration_s};
+    const loop::PeriodDrive drive(scene_, amplitude_N_, amplitude_N, 0.0);
+    amplitude_N_ = amplitude_N;
+    loop::Stretch stretch{
+        duration_s,       0.0, rate_, drive.part(0).amplitude_N, period.begin_velocity_m_per_s,
+        gain / duration_s};
+    stretch.drive_slope_N_per_rad = drive.part(0).slope_N_per_rad;
     loop::EnergyBalance energy;
     const auto outcome = plant_->advance(stretch, energy);
     EXPECT_EQ(outcome.error, plant::Error::none);
@@ -75,10 +81,12 @@ class SensedPlant {
   }
 
  private:
+  const scene::Scene& scene_;
   double period_s_;
   double rate_;
   std::unique_ptr<loop::PlantPort> plant_;
   loop::Sensor sensor_;
+  double amplitude_N_ = 0.0;  ///< of the period before
 };
 
 scene::Scene scene_of(const std::string& controller) {

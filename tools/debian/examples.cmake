@@ -22,6 +22,9 @@ set(examples_sonoglide-image
 set(examples_sonoglide-connect
   "sonoglide connect /dev/ttyACM0" "Talks to the unit on a serial device. The word help lists the commands."
   "echo stop | sonoglide connect /dev/ttyACM0" "Stops its drive.")
+set(examples_sonoglide-commission
+  "sonoglide commission /dev/ttyACM0 ${target_step}"
+  "Has the unit of that scene record its plant, and writes a scene of what was found.")
 set(examples_sonoglide-configure
   "sonoglide configure ${target_step} --out controller"
   "Writes controller/controller_configuration.hpp, from which an image is built.")

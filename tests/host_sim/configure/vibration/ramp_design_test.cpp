@@ -48,8 +48,8 @@ TEST(RampDesignTest, GivesFeedbackBesideAMultipleAGainThatAdapts) {
     EXPECT_EQ(design.adaptive_gain->patience_periods, 4.0 * (3.0 + design.changing_periods()))
         << mode;
     EXPECT_LT(design.adaptive_gain->least_part, 1.0);
-    // A quarter of the band, on base 2.
-    EXPECT_NEAR(design.adaptive_gain->small_error, 0.125 * ramped(mode).run.settling_band, 1e-12);
+    // An eighth of the band, on base 2.
+    EXPECT_NEAR(design.adaptive_gain->small_error, 0.0625 * ramped(mode).run.settling_band, 1e-12);
   }
   scene::Scene late = ramped(2.0);
   late.drive->delay_periods += 3;
