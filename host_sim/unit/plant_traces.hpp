@@ -13,7 +13,7 @@ namespace sonoglide::unit {
 
 /// A trace that was read.
 struct RecordedTrace {
-  std::size_t before;  ///< records of the steps before what triggered it
+  std::size_t before = 0;  ///< records of the steps before what triggered it
   std::vector<link::TraceRecord> records;
 };
 

@@ -24,8 +24,8 @@ struct RecordedStep {
 
 /// Steps without a gap. Before the first of them the drive was as in it for long.
 struct Stretch {
-  std::string name;    ///< for a person
-  std::size_t before;  ///< steps before the first answer to another target
+  std::string name;        ///< for a person
+  std::size_t before = 0;  ///< steps before the first answer to another target
   std::vector<RecordedStep> steps;
 };
 
