@@ -59,7 +59,7 @@ set(SCENES "${root}/usr/share/sonoglide/scenes")
 set(DOCUMENTS "${root}/usr/share/doc/sonoglide")
 include("${SOURCE}/tools/debian/examples.cmake")
 # They take long, or talk to a unit.
-set(left_out arithmetic connect image pil stability work-precision)
+set(left_out arithmetic commission connect image pil stability work-precision)
 file(REMOVE_RECURSE "${FOLDER}/debian_examples")
 file(MAKE_DIRECTORY "${FOLDER}/debian_examples")
 foreach(command IN LISTS commands ITEMS identify-impedance identify-friction)
