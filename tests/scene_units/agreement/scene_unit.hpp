@@ -102,17 +102,23 @@ using PortOfParts =
 struct NoEncoder {};
 
 /// One carrier period.
-template <class UnitT, class Sample>
-const typename UnitT::Supervisor::Drive& step(UnitT& unit, const Sample& sample) {
-  NoEncoder board;
+template <class UnitT, class Sample, class Board>
+const typename UnitT::Supervisor::Drive& step(UnitT& unit, const Sample& sample, Board& board) {
   unit.supervisor().note_service();
   const auto& drive = unit.supervisor().step(sample);
   unit.supervisor().pass(sample, board);
   return drive;
 }
+template <class UnitT, class Sample>
+const typename UnitT::Supervisor::Drive& step(UnitT& unit, const Sample& sample) {
+  NoEncoder board;
+  return step(unit, sample, board);
+}
 
 /// A unit that was told to start, and that is sent each target. Its service never ends.
-template <class Parts, class Course = OrderedTargets>
+///
+/// @tparam Board  hands over its count, if it has an encoder
+template <class Parts, class Course = OrderedTargets, class Board = NoEncoder>
 class UnitPort : public PortOfParts<Parts> {
   using Base = PortOfParts<Parts>;
 
@@ -130,13 +136,14 @@ class UnitPort : public PortOfParts<Parts> {
 
  private:
   typename Base::Drive answer(const typename Base::Sample& sample) override {
-    return step(unit, sample);
+    return step(unit, sample, board);
   }
 
   Pages pages_;
   double full_scale_;
 
  public:
+  Board board;
   Unit<Parts, Pages, std::atomic, 0, Course> unit;
 };
 
