@@ -23,10 +23,12 @@ std::string number_text(const TextureHarmonic& each) {
   return is_mean(each) ? "mean" : fmt::format("{}", each.harmonic);
 }
 
-/// A harmonic that is not wanted has no place.
 std::string lag_text(const TextureHarmonic& each) {
-  constexpr double least = 1e-6;
-  return is_mean(each) || std::abs(each.wanted) < least ? "-" : figure("{:.1f}", each.lag_deg());
+  return is_mean(each) || each.is_faint ? "-" : figure("{:.1f}", each.lag_deg());
+}
+
+std::string amplitude_ratio_text(const TextureHarmonic& each) {
+  return each.is_faint ? "-" : figure("{:.4f}", each.amplitude_ratio());
 }
 
 /// Not the sign of a mean: it is above 0.
@@ -80,7 +82,7 @@ output::Table texture_table(const scene::Scene& scene, const TextureMeter& meter
                       {}};
   for (const TextureHarmonic& each : meter.harmonics()) {
     table.rows.push_back({number_text(each), size_text(unit, each.wanted),
-                          size_text(unit, each.rendered), figure("{:.4f}", each.amplitude_ratio()),
+                          size_text(unit, each.rendered), amplitude_ratio_text(each),
                           lag_text(each)});
   }
   return table;
@@ -125,7 +127,7 @@ std::vector<std::string> texture_warnings(const scene::Scene& scene, const Textu
     return size || (!is_mean(each) && std::abs(each.lag_deg()) > largest_lag_deg);
   };
   for (const TextureHarmonic& each : harmonics) {
-    const bool told = each.harmonic <= 1;
+    const bool told = each.harmonic <= 1 && !each.is_faint;
     if (told && off(each)) {
       all.push_back(fmt::format(
           "The texture's {} is {} times its target{}: more than 5 % or 20 degrees off.",

@@ -21,14 +21,23 @@ std::complex<double> turned(double turns) {
   return std::polar(1.0, -numeric::two_pi * (turns - std::floor(turns)));
 }
 
+int highest_harmonic(const scene::Texture& texture) {
+  return static_cast<int>(texture.values.size() / 2);
+}
+
+double largest_amplitude(const scene::Texture& texture) {
+  double largest = 0.0;
+  for (int harmonic = 1; harmonic <= highest_harmonic(texture); ++harmonic) {
+    largest = std::max(largest, std::abs(harmonic_of(texture, harmonic)));
+  }
+  return largest;
+}
+
 /// The mean, and what is worth a line.
 std::vector<int> worth_telling(const scene::Texture& texture) {
   constexpr double least_part = 1e-3;
-  const int most = static_cast<int>(texture.values.size() / 2);
-  double largest = 0.0;
-  for (int harmonic = 1; harmonic <= most; ++harmonic) {
-    largest = std::max(largest, std::abs(harmonic_of(texture, harmonic)));
-  }
+  const int most = highest_harmonic(texture);
+  const double largest = largest_amplitude(texture);
   std::vector<int> numbers{0};
   for (int harmonic = 1; harmonic <= most && numbers.size() <= most_harmonics; ++harmonic) {
     const double amplitude = std::abs(harmonic_of(texture, harmonic));
@@ -137,13 +146,17 @@ void TextureMeter::end_pass(double end_m, bool steady) {
 }
 
 std::vector<TextureHarmonic> TextureMeter::harmonics() const {
+  constexpr double faint_part = 1e-2;
+  const double faint = faint_part * largest_amplitude(texture_);
   std::vector<TextureHarmonic> all;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const double sides = numbers_[i] == 0 ? 1.0 : 2.0;
+    const std::complex<double> wanted = harmonic_of(texture_, numbers_[i]);
     const std::complex<double> rendered =
         passes_ > 0 ? sides * sums_[i] / static_cast<double>(passes_)
                     : std::complex<double>(std::numeric_limits<double>::quiet_NaN());
-    all.push_back({numbers_[i], harmonic_of(texture_, numbers_[i]) / unit_.size, rendered});
+    all.push_back(
+        {numbers_[i], wanted / unit_.size, rendered, numbers_[i] != 0 && std::abs(wanted) < faint});
   }
   return all;
 }

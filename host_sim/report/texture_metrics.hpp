@@ -17,8 +17,10 @@ struct TextureHarmonic {
   int harmonic;
   std::complex<double> wanted;    ///< ratio, or force over the unit's size
   std::complex<double> rendered;  ///< NaN where no whole period passed
+  bool is_faint;                  ///< wanted below 1 % of the largest harmonic
 
-  /// Rendered over wanted, and how much further along the path the rendered one lies, in degrees.
+  /// Rendered over wanted, and how much further along the path the rendered one lies, in degrees. Of a faint
+  /// harmonic both are noise.
   double amplitude_ratio() const;
   double lag_deg() const;
 };

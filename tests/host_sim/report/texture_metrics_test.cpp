@@ -113,6 +113,21 @@ TEST(TextureMeter, TellsNothingWithoutAWholePeriod) {
   EXPECT_TRUE(std::isnan(meter.harmonics()[1].rendered.real()));
 }
 
+TEST(TextureMeter, AHarmonicBelowAHundredthOfTheLargestIsFaint) {
+  std::vector<double> values;
+  for (int i = 0; i < 16; ++i) {
+    const double turn = 2.0 * pi * i / 16;
+    values.push_back(0.5 + 0.2 * std::sin(turn) + 0.004 * std::sin(2.0 * turn) +
+                     0.001 * std::sin(3.0 * turn));
+  }
+  const scene::Scene scene = textured(values);
+  const std::vector<TextureHarmonic> found = TextureMeter(scene).harmonics();
+  ASSERT_EQ(found.size(), 4U);
+  for (const TextureHarmonic& each : found) {
+    EXPECT_EQ(each.is_faint, each.harmonic == 3) << each.harmonic;
+  }
+}
+
 /// By a sum over a grid so fine that its own error is below the tolerance.
 TEST(HarmonicOf, IsThatOfTheStraightLines) {
   const scene::Texture texture{period_m, uneven, false};
