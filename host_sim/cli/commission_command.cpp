@@ -88,12 +88,14 @@ void add_commission_command(CLI::App& program) {
   const auto options = std::make_shared<CommissionOptions>();
   CLI::App* command = program.add_subcommand(
       "commission",
-      "A running unit records its plant while it drives, and the scene's plant is fitted to that");
+      "Drive a running unit through some targets, for about half a minute, and fit the scene's "
+      "plant to what it records; friction falls meanwhile, so what it holds may move, and at the end "
+      "the unit is stopped");
   command->add_option("device", options->device, "Serial device of the unit")
       ->required()
       ->type_name("DEVICE")
       ->check(not_empty("a serial device"));
-  add_scene_options(*command, options->scene);
+  add_scene_options(*command, options->scene, "the one that the unit's image was built from");
   add_study_options(*command, options->study,
                     "commissioned.toml, identify.json, fit.csv and report.html [out/<scene "
                     "name>_commission]");

@@ -135,7 +135,9 @@ void connect(const ConnectOptions& options) {
 void add_connect_command(CLI::App& program) {
   const auto options = std::make_shared<ConnectOptions>();
   CLI::App* command = program.add_subcommand(
-      "connect", "Talk to a running unit: commands are lines of the standard input");
+      "connect",
+      "Talk to a running unit: each line of the standard input is a command, such as status, "
+      "target 0.45, stop or params; help lists all");
   command
       ->add_option("device", options->device,
                    "Serial device of the unit; with --emulated a closed-loop scene, its TOML file "
