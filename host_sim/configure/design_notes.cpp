@@ -226,8 +226,8 @@ void add_reach_note(const ControlDesign& design, std::vector<std::string>& notes
 void add_texture_note(const TextureDesign& texture, std::vector<std::string>& notes) {
   if (texture.vibration_demand > 1.0) {
     notes.push_back(fmt::format(
-        "At {:.4g} m/s the texture takes a vibration of up to {:.3g} times what the drive holds: there "
-        "the limit {} cuts it.",
+        "At {:.4g} m/s the texture takes a vibration of up to {:.3g} times what the drive holds, and "
+        "faster sliding takes more: there the limit {} cuts it.",
         texture.fastest_m_per_s, texture.vibration_demand, control::name(texture.limit)));
     return;
   }

@@ -140,7 +140,7 @@ TEST(Documents, TheExplanationShowsWhatItsCommandsPrint) {
 }
 
 TEST(Documents, TheUsesShowWhatTheirCommandsPrint) {
-  EXPECT_EQ(expect_commands_shown(source / "host_sim/scenes/what_the_friction_is_for.md"), 10);
+  EXPECT_EQ(expect_commands_shown(source / "host_sim/scenes/what_the_friction_is_for.md"), 13);
 }
 
 /// Commands of at most some seconds, in this folder; the others have tests of their own.
