@@ -9,6 +9,7 @@
 #include "firmware/app/target_schedule.hpp"
 #include "firmware/app/texture.hpp"
 #include "firmware/control/controller.hpp"
+#include "firmware/image/carrier/board_of.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
 #include "firmware/image/carrier/frequency_step.hpp"
 
@@ -17,11 +18,12 @@ namespace {
 using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
+using CarrierBoard =
+    sonoglide::image::BoardOf<Hardware, decltype(configuration::target_steps)>::Type;
 
 constexpr std::uint32_t ticks =
-    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board,
-                                   configuration::every_periods, configuration::delay_periods,
-                                   configuration::interpolates,
+    sonoglide::image::CarrierTicks<configuration::Parts, CarrierBoard, configuration::every_periods,
+                                   configuration::delay_periods, configuration::interpolates,
                                    app::tuned>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
@@ -30,9 +32,9 @@ using Controller = sonoglide::control::Controller<configuration::Parts>;
 using Answer = app::DriveOf<Controller>;
 
 /// The board, whose answers are there for who watches the memory.
-class ShownBoard : public Hardware::Board {
+class ShownBoard : public CarrierBoard {
  public:
-  using Hardware::Board::Board;
+  using CarrierBoard::CarrierBoard;
   void drive(const Answer& answer);
 };
 
@@ -60,7 +62,7 @@ void take_carrier() {
 
 namespace {
 void ShownBoard::drive(const Answer& answer) {
-  Hardware::Board::drive(answer);
+  CarrierBoard::drive(answer);
   last_answer = answer;
 }
 }  // namespace
@@ -70,7 +72,7 @@ int main() {
   own.controller.start();
   app::tune(own.board, configuration::carrier_period_s);
   run = &own;
-  Hardware::Board::interrupt();
+  CarrierBoard::interrupt();
   for (;;) {
   }
 }

@@ -11,6 +11,7 @@
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
+#include "firmware/image/carrier/board_of.hpp"
 #include "firmware/image/carrier/carrier_ticks.hpp"
 #include "firmware/image/carrier/frequency_step.hpp"
 #include "hal/trace_records.hpp"
@@ -20,11 +21,12 @@ namespace {
 using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
+using CarrierBoard =
+    sonoglide::image::BoardOf<Hardware, decltype(configuration::target_steps)>::Type;
 
 constexpr std::uint32_t ticks =
-    sonoglide::image::CarrierTicks<configuration::Parts, Hardware::Board,
-                                   configuration::every_periods, configuration::delay_periods,
-                                   configuration::interpolates,
+    sonoglide::image::CarrierTicks<configuration::Parts, CarrierBoard, configuration::every_periods,
+                                   configuration::delay_periods, configuration::interpolates,
                                    app::tuned>::of(configuration::carrier_period_s);
 static_assert(ticks != 0,
               "this board cannot make drive.frequency_Hz; its README lists those it can");
@@ -37,11 +39,11 @@ struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
 };
 
-using Course = decltype(app::course_of<Hardware::Board>(configuration::target_steps));
+using Course = decltype(app::course_of<CarrierBoard>(configuration::target_steps));
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
                        sonoglide::hal::trace_records<Hardware>, Course>;
 using Service = app::LinkService<Unit, Hardware::ByteLink, 32, Product>;
-using Loop = app::TimedLoop<Unit::Supervisor, Hardware::Board, Hardware::Watchdog, Service>;
+using Loop = app::TimedLoop<Unit::Supervisor, CarrierBoard, Hardware::Watchdog, Service>;
 
 Loop* loop;  // set before the carrier interrupts
 
@@ -56,13 +58,13 @@ extern "C" void take_carrier() {
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
-  Unit unit(design, flash, app::course_of<Hardware::Board>(configuration::target_steps));
+  Unit unit(design, flash, app::course_of<CarrierBoard>(configuration::target_steps));
   Service service(unit, bytes);
-  Hardware::Board board(ticks);
+  CarrierBoard board(ticks);
   app::tune(board, configuration::carrier_period_s);
   Loop own(unit.supervisor(), board, watchdog, service);
   loop = &own;
-  Hardware::Board::interrupt();
+  CarrierBoard::interrupt();
   for (;;) {
     own.service();
   }

@@ -12,6 +12,7 @@
 #include "hal/nucleo_g474re/clocks.hpp"
 #include "hal/nucleo_g474re/control_registers.hpp"
 #include "hal/nucleo_g474re/demodulation.hpp"
+#include "hal/nucleo_g474re/encoder.hpp"
 
 namespace sonoglide::hal::nucleo_g474re {
 
@@ -216,6 +217,18 @@ class Board {
   bool whole_ = false;
 };
 
+#ifdef SONOGLIDE_ENCODER_COUNTS_PER_M
+/// With an encoder along the sliding, see encoder.hpp; the definition is its resolution.
+class BoardWithEncoder : public Board {
+ public:
+  static constexpr double travel_counts_per_m = SONOGLIDE_ENCODER_COUNTS_PER_M;
+
+  explicit BoardWithEncoder(std::uint32_t period_ticks) : Board(period_ticks) { start_encoder(); }
+
+  static std::uint32_t travel() { return latched_count(); }
+};
+#endif
+
 /// A byte link, see hal/board.hpp: USART2 at PA2 and PA3, which the debugger of the board shows as a serial port
 /// on USB; 115200 baud, 8 data bits, no parity, one stop bit. 256 bytes wait in a ring that the DMA fills.
 class Uart {
@@ -263,6 +276,9 @@ class Flash {
 struct Hardware {
   static constexpr std::size_t trace_records = 1024;
   using Board = nucleo_g474re::Board;
+#ifdef SONOGLIDE_ENCODER_COUNTS_PER_M
+  using BoardWithEncoder = nucleo_g474re::BoardWithEncoder;
+#endif
   using ByteLink = Uart;
   using Watchdog = nucleo_g474re::Watchdog;
   using Flash = nucleo_g474re::Flash;

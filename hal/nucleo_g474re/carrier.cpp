@@ -127,9 +127,9 @@ Board::Board(std::uint32_t period_ticks)
   enable_clocks();
   clock_control.apb2_enable = clock_control.apb2_enable | clocks_of_timers_and_faults;
   system_faults = breaking_faults;
-  use_pin_a(6, 6, pulled_down);  // an open line is a fault
-  use_pin_a(8, 6, pulled_down);
-  use_pin_a(10, 6, pulled_down);
+  use_pin(port_a, 6, 6, pulled_down);  // an open line is a fault
+  use_pin(port_a, 8, 6, pulled_down);
+  use_pin(port_a, 10, 6, pulled_down);
 
   carrier_timer.control_1 = up_and_down | reload_at_update;
   carrier_timer.control_2 = tells_updates;

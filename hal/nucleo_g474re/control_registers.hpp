@@ -53,8 +53,8 @@ struct PortRegisters {
 };
 static_assert(offsetof(PortRegisters, function) == 0x20);
 
-/// Of the timers with a break.
-/// Source: ST, RM0440, TIM1/TIM8/TIM20 registers.
+/// Of the timers with a break; TIM5 has neither that nor repetitions.
+/// Source: ST, RM0440, TIM1/TIM8/TIM20 and TIM2/TIM3/TIM4/TIM5 registers.
 struct TimerRegisters {
   volatile std::uint32_t control_1;
   volatile std::uint32_t control_2;
@@ -79,8 +79,11 @@ extern "C" {
 extern ClockRegisters clock_control;
 extern FlashRegisters flash_control;
 extern PortRegisters port_a;
+extern PortRegisters port_b;
+extern PortRegisters port_c;
 extern TimerRegisters carrier_timer;   ///< TIM1
 extern TimerRegisters sampling_timer;  ///< TIM8
+extern TimerRegisters encoder_timer;   ///< TIM5
 }
 
 inline constexpr std::uint32_t update_event = 1U << 0;  ///< of a timer's status
@@ -92,14 +95,14 @@ inline constexpr std::uint32_t outputs_off = 1U << 8      // settings locked, le
                                              | 1U << 12;  // a break by a low input
 inline constexpr std::uint32_t outputs_on = outputs_off | 1U << 15;
 
-/// A pin of port A for a peripheral.
-inline void use_pin_a(unsigned pin, std::uint32_t function, std::uint32_t pull) {
+/// A pin for a peripheral.
+inline void use_pin(PortRegisters& port, unsigned pin, std::uint32_t function, std::uint32_t pull) {
   constexpr std::uint32_t of_peripheral = 2;
-  port_a.pull = (port_a.pull & ~(3U << (2 * pin))) | pull << (2 * pin);
-  volatile std::uint32_t& functions = port_a.function[pin / 8];
+  port.pull = (port.pull & ~(3U << (2 * pin))) | pull << (2 * pin);
+  volatile std::uint32_t& functions = port.function[pin / 8];
   const unsigned at = 4 * (pin % 8);
   functions = (functions & ~(15U << at)) | function << at;
-  port_a.mode = (port_a.mode & ~(3U << (2 * pin))) | of_peripheral << (2 * pin);
+  port.mode = (port.mode & ~(3U << (2 * pin))) | of_peripheral << (2 * pin);
 }
 
 inline constexpr std::uint32_t pulled_up = 1;

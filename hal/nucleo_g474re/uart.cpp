@@ -48,8 +48,8 @@ Uart::Uart() {
   usart2.control_3 = receives_by_transfers | overruns_ignored;
   usart2.control_1 = with_queues;
   usart2.control_1 = with_queues | enabled_both_ways;
-  use_pin_a(2, 7, pulled_up);
-  use_pin_a(3, 7, pulled_up);
+  use_pin(port_a, 2, 7, pulled_up);
+  use_pin(port_a, 3, 7, pulled_up);
 }
 
 bool Uart::receive(std::uint8_t& byte) {

@@ -38,8 +38,9 @@ function(carrier_refusal board name reason scene)
     LABELS check PASS_REGULAR_EXPRESSION "${reason}" RESOURCE_LOCK images_${board})
 endfunction()
 
-# carrier_images(<board> <targets>...): of the controllers so far.
+# carrier_images(<board> <targets>... [SETTINGS <-Dname=value>...]): of the controllers so far.
 function(carrier_images board)
+  cmake_parse_arguments(IMAGES "" "" "SETTINGS" ${ARGN})
   add_custom_target(${board}_controllers DEPENDS ${written})
   list(JOIN folders "," folders)
   ExternalProject_Add(images_${board}
@@ -48,12 +49,12 @@ function(carrier_images board)
     PREFIX "${CMAKE_CURRENT_BINARY_DIR}/images_${board}"
     LIST_SEPARATOR ","
     CONFIGURE_COMMAND "${CMAKE_COMMAND}" -S <SOURCE_DIR> -B <BINARY_DIR> --no-warn-unused-cli --preset ${board}
-      "-DSONOGLIDE_CONTROLLERS=${folders}"
-    BUILD_COMMAND "${CMAKE_COMMAND}" --build <BINARY_DIR> --target ${ARGN}
+      "-DSONOGLIDE_CONTROLLERS=${folders}" ${IMAGES_SETTINGS}
+    BUILD_COMMAND "${CMAKE_COMMAND}" --build <BINARY_DIR> --target ${IMAGES_UNPARSED_ARGUMENTS}
     BUILD_ALWAYS ON
     INSTALL_COMMAND ""
     DEPENDS ${board}_controllers)
-  list(TRANSFORM ARGN REPLACE "(.+)" "${${board}_images}/bin/\\1.elf" OUTPUT_VARIABLE files)
+  list(TRANSFORM IMAGES_UNPARSED_ARGUMENTS REPLACE "(.+)" "${${board}_images}/bin/\\1.elf" OUTPUT_VARIABLE files)
   list(JOIN files "," files)
   add_test(NAME boards.${board}.images_link_nothing_forbidden
     COMMAND "${CMAKE_COMMAND}" -DBINUTILS=arm-none-eabi "-DIMAGES=${files}"

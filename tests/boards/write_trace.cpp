@@ -16,32 +16,10 @@
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
+#include "trace_line.hpp"
 
 namespace sonoglide {
 namespace {
-
-void write_sample(const hal::Sample& sample) {
-  std::cout << sample.friction_force << ' ' << sample.sliding_velocity << ' '
-            << sample.force_at_rail << ' ' << sample.fresh << ' ' << sample.velocity_at_rail << ' ';
-}
-
-void write_answer(const hal::Drive& drive) {
-  std::cout << drive.amplitude << ' ' << drive.commanded_ratio << ' ' << int{drive.state} << ' '
-            << int{drive.limit} << ' ' << int{drive.fault} << ' ' << int{drive.settling};
-}
-
-void write_line(const hal::Sample& sample, const hal::Drive& drive) {
-  write_sample(sample);
-  write_answer(drive);
-  std::cout << '\n';
-}
-
-void write_line(const hal::VibrationSample& sample, const hal::ResonantDrive& drive) {
-  write_sample(sample);
-  std::cout << sample.in_phase << ' ' << sample.quadrature << ' ';
-  write_answer(drive);
-  std::cout << ' ' << drive.frequency << '\n';
-}
 
 void write_fields(const hal::Sample& sample) {
   std::cout << sample.friction_force << ", " << sample.sliding_velocity << ", "
@@ -68,7 +46,7 @@ class WritingPort final : public loop::ControlPort {
   auto answer(const Sample& sample) {
     const auto drive = port_->exchange(sample);
     if (form_ == Form::lines) {
-      write_line(sample, drive);
+      boards_test::write_line(sample, drive);
     } else {
       write_initialiser(sample);
     }

@@ -73,17 +73,18 @@ function(sonoglide_board name)
 endfunction()
 
 # sonoglide_carrier_board(<name> FOLDER <f> [CHIP <chip>] HARDWARE <class>
-#   SERIAL_BOARD <class>): a board whose carrier interrupts. Its
+#   SERIAL_BOARD <class> [ENCODER]): a board whose carrier interrupts. Its
 # class is in <f>/board.hpp, its memory map in <f>/memory.ld; of boards that differ in their chip alone, what is
 # the chip's own is in <f>/<chip>. Each controller gives <name of its folder>_unit.elf, with
 # a link to its host, and <name>_scene.elf, with the targets of its scene, and <name>_serial.elf, in lockstep with a
 # host over a serial line (SERIAL_BOARD). <f>/write_uf2 writes a .uf2 beside each, where there is such a program, and Python.
+# ENCODER: it reads one along the sliding where SONOGLIDE_ENCODER_COUNTS_PER_M says its resolution.
 function(sonoglide_carrier_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "FOLDER;CHIP;HARDWARE;SERIAL_BOARD" "" ${ARGN})
+  cmake_parse_arguments(BOARD "ENCODER" "FOLDER;CHIP;HARDWARE;SERIAL_BOARD" "" ${ARGN})
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} FOLDERS ${BOARD_CHIP} USES sonoglide_lockstep_board sonoglide_loaded)
   set(memory ${BOARD_FOLDER}/memory.ld)
   if(BOARD_CHIP)
@@ -91,6 +92,11 @@ function(sonoglide_carrier_board name)
     target_compile_definitions(sonoglide_board PUBLIC
       "SONOGLIDE_CHIP_HEADER=\"${BOARD_FOLDER}/${BOARD_CHIP}/chip.hpp\"")
   endif()
+  if(BOARD_ENCODER AND SONOGLIDE_ENCODER_COUNTS_PER_M)
+    target_compile_definitions(sonoglide_board PUBLIC
+      SONOGLIDE_ENCODER_COUNTS_PER_M=${SONOGLIDE_ENCODER_COUNTS_PER_M})
+  endif()
+  set_property(GLOBAL PROPERTY SONOGLIDE_BOARD_READS_ENCODER ${BOARD_ENCODER})
   find_program(SONOGLIDE_INTERPRETER python3)
   set(class_of_serial ${BOARD_SERIAL_BOARD})
   set(main_of_serial main)
@@ -179,6 +185,8 @@ if(CMAKE_CROSSCOMPILING)
   set(SONOGLIDE_BOARD "" CACHE STRING "Board that images are linked for")
   set(SONOGLIDE_CONTROLLERS "" CACHE STRING
     "Folders with a controller_configuration.hpp; each gives images of its name")
+  set(SONOGLIDE_ENCODER_COUNTS_PER_M "" CACHE STRING
+    "Counts of the encoder along the sliding in a metre, for images of scenes with a texture; empty: there is none")
 
   sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
     USES sonoglide_lockstep sonoglide_start)
@@ -195,7 +203,7 @@ if(CMAKE_CROSSCOMPILING)
   sonoglide_carrier_board(pico FOLDER hal/pico CHIP rp2040 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard)
   sonoglide_carrier_board(pico2 FOLDER hal/pico CHIP rp2350 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard)
   sonoglide_carrier_board(nucleo-g474re FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware
-    SERIAL_BOARD nucleo_g474re::SerialBoard)
+    SERIAL_BOARD nucleo_g474re::SerialBoard ENCODER)
   sonoglide_emulated_board(microbit FOLDER hal/microbit
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
   foreach(board mps2-an385 mps2-an386 mps2-an500)
@@ -215,5 +223,14 @@ if(CMAKE_CROSSCOMPILING)
     message(FATAL_ERROR "No board is called ${SONOGLIDE_BOARD}; there are ${boards}")
   elseif(SONOGLIDE_CONTROLLERS AND NOT SONOGLIDE_BOARD)
     message(FATAL_ERROR "An image is for a board: set SONOGLIDE_BOARD, or use the board's preset")
+  endif()
+  if(NOT SONOGLIDE_ENCODER_COUNTS_PER_M STREQUAL "")
+    set(named "SONOGLIDE_ENCODER_COUNTS_PER_M=${SONOGLIDE_ENCODER_COUNTS_PER_M}")
+    get_property(reads GLOBAL PROPERTY SONOGLIDE_BOARD_READS_ENCODER)
+    if(NOT reads)
+      message(FATAL_ERROR "${named}: ${SONOGLIDE_BOARD} reads no encoder; allowed: the board nucleo-g474re, or leave it out")
+    elseif(NOT SONOGLIDE_ENCODER_COUNTS_PER_M MATCHES "^[1-9][0-9]*(\\.[0-9]+)?(e[0-9]+)?$")
+      message(FATAL_ERROR "${named}; allowed: a number of 1 or more, such as 1e6")
+    endif()
   endif()
 endif()

@@ -41,6 +41,7 @@ sonoglide_drivers(arm FLAGS --target=thumbv7em-none-eabi
 target_compile_definitions(drivers_arm PRIVATE "SONOGLIDE_CHIP_HEADER=\"hal/pico/rp2040/chip.hpp\"")
 # Peripherals of other boards have the same names.
 sonoglide_drivers(g474 FLAGS --target=thumbv7em-none-eabi FOLDERS hal/nucleo_g474re)
+target_compile_definitions(drivers_g474 PRIVATE SONOGLIDE_ENCODER_COUNTS_PER_M=1e6)
 sonoglide_drivers(rp2350 FLAGS --target=thumbv8m.main-none-eabi FOLDERS hal/pico hal/pico/rp2350)
 target_compile_definitions(drivers_rp2350 PRIVATE "SONOGLIDE_CHIP_HEADER=\"hal/pico/rp2350/chip.hpp\"")
 sonoglide_drivers(riscv FLAGS --target=riscv32-unknown-elf -march=rv32imac -mabi=ilp32

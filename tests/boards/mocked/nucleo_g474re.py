@@ -17,11 +17,12 @@ WATCHDOG, WATCHDOG_WINDOW = 0x40002C00, 0x40002C04
 USART = 0x40004400
 POWER_BOOST = 0x40007080
 CARRIER, SAMPLING = 0x40012C00, 0x40013400
+ENCODER = 0x40000C00
 CONTROL_1, SLAVE, STATUS, RELOAD, COMPARE, BREAK = 0x00, 0x08, 0x10, 0x2C, 0x34, 0x44
 TRANSFER_EVENTS, TRANSFER_CLEAR, TRANSFERS, REQUESTS = 0x40020000, 0x40020004, 0x40020008, 0x40020800
 RCC_CONTROL, RCC_CONFIGURATION, RCC_PLL, RCC_CAUSES = 0x40021000, 0x40021008, 0x4002100C, 0x40021094
 FLASH_KEY, FLASH_STATUS, FLASH_CONTROL, FLASH_ECC = 0x40022008, 0x40022010, 0x40022014, 0x40022018
-PORT_A = 0x48000000
+PORT_A, PORT_B, PORT_C = 0x48000000, 0x48000400, 0x48000800
 CONVERTERS = {"force": 0x50000000, "velocity": 0x50000100, "vibration": 0x50000400}
 PAIR = 0x50000308
 OUTPUTS_ON = 1 << 15
@@ -38,7 +39,8 @@ class Board(Machine):
                          [(FLASH, 0x40000), (0x08040000, 0x40000), (0x10000000, 0x8000), (0x20000000, 0x18000)],
                          [(0x40000000, 0x30000), (0x48000000, 0x1000), (0x50000000, 0x1000)])
         self.uc.mem_write(0x08040000, b"\xff" * 0x40000)
-        self.registers = {FLASH_CONTROL: 1 << 31, PORT_A: 0xABFFFFFF, POWER_BOOST: 1 << 8,
+        self.registers = {FLASH_CONTROL: 1 << 31, PORT_A: 0xABFFFFFF,
+                          PORT_B: 0xFFFFFEBF, PORT_C: 0xFFFFFFFF, POWER_BOOST: 1 << 8,
                           SAMPLING + RELOAD: 0xFFFF}
         self.events = {CARRIER: 0, SAMPLING: 0}
         self.waits = 0
@@ -47,6 +49,7 @@ class Board(Machine):
         self.block = 0
         self.fault = False  # the line at PA6
         self.lose_conversions = False
+        self.encoder = 0  # its count
         self.in_force = None  # reload and compare values of the present period
         self.sent = []
         self.received = 0
@@ -141,6 +144,23 @@ class Board(Machine):
             self.registers[CARRIER + COMPARE + 4 * i] for i in range(4)]
         self.events[CARRIER] |= 1
         self.carrier_periods += 1
+        if self.registers.get(ENCODER + CONTROL_1, 0) & 1:
+            self.latch_encoder()
+
+    def latch_encoder(self):
+        """The update of the carrier is the trigger that captures the count."""
+        slave, inputs, third, outputs, top = (
+            self.registers.get(ENCODER + offset, 0) for offset in (SLAVE, 0x18, 0x1C, 0x20, RELOAD))
+        assert (slave, inputs & 0x303, third, outputs, top) == (3, 0x101, 3, 1 << 8, 0xFFFFFFFF), "no encoder is read"
+        assert self.registers[CARRIER + 4] >> 4 & 7 == 2, "the carrier triggers nothing at its update"
+        for port, pin, function in ((PORT_B, 2, 2), (PORT_C, 12, 1)):
+            assert self.registers[port] >> 2 * pin & 3 == 2, "a pin is not its timer's"
+            assert self.registers[port + 0x20 + 4 * (pin // 8)] >> 4 * (pin % 8) & 15 == function
+        self.registers[ENCODER + COMPARE + 8] = self.encoder
+
+    def turn_encoder(self, count):
+        assert self.registers.get(ENCODER + CONTROL_1, 0) & 1, "the encoder's timer stands"
+        self.encoder = count & 0xFFFFFFFF
 
     def transfer(self, channel):
         """Where a transfer leads: peripheral, memory, count and bytes of an element."""

@@ -1,7 +1,8 @@
 """The image of a scene meets the samples of the workstation's run and answers with the same commands, bit for
 bit; the bridge makes each amplitude.
 
-Usage: scene_test.py BOARD IMAGE.elf TRACE MOST   (MOST: instructions of a step, its interrupt included)
+Usage: scene_test.py BOARD IMAGE.elf TRACE MOST [encoder]   (MOST: instructions of a step, its interrupt included;
+encoder: the trace begins with its count)
 """
 import importlib
 import math
@@ -32,7 +33,7 @@ def check_frequencies(half_periods, configuration, pairs_Hz):
 
 
 def main():
-    name, image, trace, most = sys.argv[1:]
+    name, image, trace, most, *encoder = sys.argv[1:]
     board_of = importlib.import_module(name)
     board = board_of.Board(image)
     board.start()
@@ -41,6 +42,8 @@ def main():
     half_periods = []
     farthest = 0.0
     for number, step in enumerate(read(trace)):
+        if encoder:
+            board.turn_encoder(step.pop(0))
         force, velocity, force_at_rail, fresh, velocity_at_rail, *rest = step
         assert fresh, "a period without a sample is tested in unit_test.py"
         conversions = [board_of.conversions_of(force), board_of.conversions_of(velocity)]

@@ -10,7 +10,7 @@
 #include "firmware/control/controller.hpp"
 #include "hal/host/simulated_board.hpp"
 #include "host_sim/loop/watch.hpp"
-#include "tests/scene_units/agreement/scene_unit.hpp"
+#include "tests/scene_units/agreement/ports.hpp"
 
 namespace sonoglide::app::scene_units_test {
 

@@ -25,60 +25,11 @@
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
+#include "tests/scene_units/agreement/ports.hpp"
 
 namespace sonoglide::app::scene_units_test {
 
 using Pages = hal::timed::VolatilePages;
-
-/// A port of one kind of samples and answers.
-template <class SampleT, class DriveT>
-class PortOf : public loop::ControlPort {
- public:
-  using Sample = SampleT;
-  using Drive = DriveT;
-
-  Drive exchange(const Sample& sample) final { return answer(sample); }
-  std::vector<numeric::SignalRecord> signals() const final { return {}; }
-
- protected:
-  static Drive ask(ControlPort& port, const Sample& sample) { return port.exchange(sample); }
-  virtual Drive answer(const Sample& sample) = 0;
-};
-
-template <class SampleT>
-class PortOf<SampleT, hal::BiasedDrive> : public loop::ControlPort {
- public:
-  using Sample = SampleT;
-  using Drive = hal::BiasedDrive;
-
-  Drive exchange_biased(const Sample& sample) final { return answer(sample); }
-  std::vector<numeric::SignalRecord> signals() const final { return {}; }
-
- protected:
-  static Drive ask(ControlPort& port, const Sample& sample) { return port.exchange_biased(sample); }
-  virtual Drive answer(const Sample& sample) = 0;
-};
-
-/// Keeps what passes.
-template <class Base>
-class Recorded : public Base {
- public:
-  explicit Recorded(loop::ControlPort& port) : port_(port) {}
-
-  void set_target(double target) override { port_.set_target(target); }
-
-  std::vector<typename Base::Sample> samples;
-  std::vector<typename Base::Drive> drives;
-
- private:
-  typename Base::Drive answer(const typename Base::Sample& sample) override {
-    samples.push_back(sample);
-    drives.push_back(Base::ask(port_, sample));
-    return drives.back();
-  }
-
-  loop::ControlPort& port_;
-};
 
 /// A carrier period without a sample, for a stop or an order of a unit that does not drive.
 template <class UnitT>
@@ -93,10 +44,6 @@ void restart(UnitT& unit) {
   EXPECT_EQ(unit.restart(unit.supervisor().faults().count()), Answer::taken);
   pass(unit);
 }
-
-template <class Parts>
-using PortOfParts =
-    PortOf<SampleOf<control::Controller<Parts>>, DriveOf<control::Controller<Parts>>>;
 
 /// Of the board of a unit in a test, who has no encoder.
 struct NoEncoder {};
