@@ -13,6 +13,7 @@
 #include "firmware/control/limits/drive_limit.hpp"
 #include "firmware/control/limits/tolerant_samples.hpp"
 #include "firmware/encoding/crc32.hpp"
+#include "firmware/link/scale_messages.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::app {
@@ -140,10 +141,12 @@ class FieldDesign {
   /// @param target      from reset on, see Controller::set_target.
   /// @param design      number of the design: of a store that was written under another, only
   ///                    the limits are taken, and the unit waits to be told.
+  /// @param full_scales  told to the host, no more
   /// @param period_s    of the loop, which a step answers; above 1e-6 s.
   /// @param timeout_ms  host_timeout as compiled in: 0: a silent host is borne for ever.
   constexpr FieldDesign(const Designed& designed, Scalar target, std::uint32_t design,
-                        double period_s, std::uint32_t timeout_ms)
+                        const link::FullScales& full_scales, double period_s,
+                        std::uint32_t timeout_ms)
       : designed_(designed),
         ranges_{{
             {Inheritance::none, 0, one_in_millionths,
@@ -161,6 +164,7 @@ class FieldDesign {
         }},
         target_(target),
         design_(design_number(design, ranges_)),
+        full_scales_(full_scales),
         periods_per_ms_(numeric::round_half_up<std::uint32_t>(1e-3 / period_s * one_in_fraction)) {}
 
   constexpr const ParameterRange& range(std::size_t parameter) const { return ranges_[parameter]; }
@@ -184,6 +188,9 @@ class FieldDesign {
 
   /// Tells this design from others, in the store.
   constexpr std::uint32_t design() const { return design_; }
+
+  /// See link::Quantity.
+  constexpr const link::FullScales& full_scales() const { return full_scales_; }
 
   /// Carrier periods for which the host may be silent, rounded up; 0: for ever.
   constexpr std::uint32_t timeout_periods(const ParameterValues& values) const {
@@ -297,6 +304,7 @@ class FieldDesign {
   ParameterRanges ranges_;
   Scalar target_;
   std::uint32_t design_;
+  link::FullScales full_scales_;
   std::uint32_t periods_per_ms_;  ///< of the loop, with 16 fraction bits
 };
 

@@ -7,6 +7,7 @@
 
 #include "firmware/app/commanded_supervisor.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/link/scale_messages.hpp"
 #include "firmware/store/two_page_store.hpp"
 
 namespace sonoglide::app {
@@ -68,6 +69,9 @@ class Unit {
 
   /// Tells this design from others.
   std::uint32_t design() const { return design_.design(); }
+
+  /// What its codes and targets are, in SI units.
+  const link::FullScales& full_scales() const { return design_.full_scales(); }
 
   /// Where the parameters come from: as found at reset, or stored since.
   store::Origin origin() const { return origin_; }

@@ -91,7 +91,8 @@ class UnitRequests {
                        handles<link::WriteParameter>(request) || handles<link::Restart>(request) ||
                        handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
                        handles<link::Hello>(request) || handles<link::ReadIdentity>(request) ||
-                       handles<link::Stream>(request) || handles_trace(request);
+                       handles<link::ReadScale>(request) || handles<link::Stream>(request) ||
+                       handles_trace(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
     }
@@ -140,6 +141,15 @@ class UnitRequests {
     constexpr auto board = padded<link::most_name_characters>(Product::board);
     answer(link::Identity{version.major_number, version.minor_number, version.patch_number,
                           unit_.design(), Product::serial_number(), board});
+  }
+
+  void carry_out(const link::ReadScale& request) {
+    const link::FullScales& scales = unit_.full_scales();
+    if (request.quantity < scales.size()) {
+      answer(link::scale_of(request.quantity, scales[request.quantity]));
+    } else {
+      refuse(request.kind, link::Reason::out_of_range, 0, link::quantity_count - 1);
+    }
   }
 
   void carry_out(const link::Stream& request) {

@@ -33,7 +33,8 @@ static_assert(ticks != 0,
 
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, configuration::step_period_s, app::default_timeout_ms);
+    configuration::design, configuration::full_scales, configuration::step_period_s,
+    app::default_timeout_ms);
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;

@@ -50,7 +50,7 @@ struct SilentLink {
 
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, configuration::step_period_s, 0);
+    configuration::design, configuration::full_scales, configuration::step_period_s, 0);
 
 using Course = decltype(app::course_of<void>(configuration::target_steps));
 using Unit =

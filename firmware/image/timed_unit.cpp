@@ -40,7 +40,7 @@ constexpr std::uint32_t timeout_ms = 0;
 
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, period_s, timeout_ms);
+    configuration::design, configuration::full_scales, period_s, timeout_ms);
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;

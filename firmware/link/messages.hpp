@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "firmware/link/payload.hpp"
+#include "firmware/link/scale_messages.hpp"
 #include "firmware/link/stream_messages.hpp"
 #include "firmware/link/trace_messages.hpp"
 
@@ -256,7 +257,7 @@ struct Identity {
 constexpr bool is_reading(std::uint8_t kind) {
   return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind ||
          kind == ReadIdentity::kind || kind == ReadTraceState::kind ||
-         kind == ReadTraceRecord::kind;
+         kind == ReadTraceRecord::kind || kind == ReadScale::kind;
 }
 
 enum class Reason : std::uint8_t {

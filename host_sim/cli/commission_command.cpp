@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,23 +28,15 @@ struct CommissionOptions {
   StudyOptions study;
 };
 
-std::vector<std::uint32_t> in_millionths(const experiment::Experiment& experiment) {
-  const bool is_force = experiment.nominal.controller->holds_force();
-  const double full_scale = is_force ? experiment.design->scales.force_N : 1.0;
-  std::vector<std::uint32_t> all;
-  for (const double target : plant::targets(experiment.nominal)) {
-    all.push_back(static_cast<std::uint32_t>(std::lround(1e6 * target / full_scale)));
-  }
-  return all;
-}
-
-std::vector<plant::Stretch> stretches_of(const std::vector<unit::RecordedTrace>& traces) {
+/// @param targets  of the traces at the same places; the first trace is undriven
+std::vector<plant::Stretch> stretches_of(const std::vector<unit::RecordedTrace>& traces,
+                                         const std::vector<double>& targets, const char* unit) {
   std::vector<plant::Stretch> all;
   for (const unit::RecordedTrace& trace : traces) {
+    const std::size_t number = all.size();
     plant::Stretch& stretch = all.emplace_back();
-    stretch.name = all.size() == 1
-                       ? "Undriven"
-                       : fmt::format("Target {:.6g}", trace.records.back().target / 1e6);
+    stretch.name =
+        number == 0 ? "Undriven" : fmt::format("Target {:.6g}{}", targets.at(number), unit);
     stretch.before = trace.before;
     for (const link::TraceRecord& record : trace.records) {
       stretch.steps.push_back(
@@ -65,9 +57,11 @@ plant::PlantStudy study(const CommissionOptions& options, const experiment::Expe
         process::printable(options.device)));
   }
   constexpr double recording = 0.5;  // of the work
-  const auto traces = unit::record_plant(link, in_millionths(experiment),
-                                         [&](double part) { progress(recording * part); });
-  return plant::study(experiment, stretches_of(traces),
+  const std::vector<double> targets = plant::targets(experiment.nominal);
+  const auto traces =
+      unit::record_plant(link, targets, [&](double part) { progress(recording * part); });
+  const char* const unit = experiment.nominal.controller->holds_force() ? " N" : "";
+  return plant::study(experiment, stretches_of(traces, targets, unit),
                       [&](double part) { progress(recording + (1.0 - recording) * part); });
 }
 

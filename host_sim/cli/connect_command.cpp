@@ -102,7 +102,9 @@ void connect(const ConnectOptions& options) {
   unit::Console console(link);
   const bool typed = isatty(STDIN_FILENO) == 1;
   if (typed && !options.quiet) {
-    print(console.identity());
+    for (const std::string& line : console.identity()) {
+      print(line);
+    }
     print("connected; help lists the commands, Ctrl-D leaves");
   }
   TypedLines lines;

@@ -129,7 +129,8 @@ std::string parameter_lines(const configure::ControlDesign& design,
 
 std::string includes(const std::vector<ChosenPart>& parts, const char* scalar_header,
                      const char* target_header) {
-  std::vector<std::string> headers{target_header, "firmware/control/controller.hpp"};
+  std::vector<std::string> headers{target_header, "firmware/control/controller.hpp",
+                                   "firmware/link/scale_messages.hpp"};
   for (const ChosenPart& part : parts) {
     for (const std::string& header : part.text.headers) {
       headers.push_back(fmt::format("firmware/control/{}.hpp", header));
@@ -158,6 +159,24 @@ std::uint32_t design_number(const std::string& types, const std::vector<ChosenPa
   return encoding::crc32(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
+std::string scale_line(const char* quantity, const char* unit, double value) {
+  return fmt::format("    {{link::ScaleUnit::{}, {:a}}},  // {}: {}\n", unit, value, quantity,
+                     value);
+}
+
+/// In the order of link::Quantity.
+std::string scale_lines(const scene::Scene& scene, const configure::ControlDesign& design) {
+  const configure::ControlScales& scales = design.scales;
+  const double bias_N = scene.drive->bias_limit_N;
+  return scale_line("friction_force", "newton", scales.force_N) +
+         scale_line("sliding_velocity", "metre_per_second", scales.velocity_m_per_s) +
+         (scene.transducer ? scale_line("amplitude", "volt", scene.drive->max_voltage_amplitude_V)
+                           : scale_line("amplitude", "newton", scales.drive_amplitude_N)) +
+         (design.holds_force ? scale_line("target", "newton", scales.force_N)
+                             : scale_line("target", "ratio", 1.0)) +
+         scale_line("bias", bias_N > 0.0 ? "newton" : "none", bias_N);
+}
+
 struct Header {
   std::string text;
   std::uint32_t design;
@@ -172,8 +191,9 @@ Header header_in(const scene::Scene& scene, const configure::ControlDesign& desi
   }
   const TargetText targets = target_text<Scalar>(scene, design);
   const std::uint32_t number = design_number(types, parts, design.scales);
-  return {fmt::format(
-              R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
+  return {
+      fmt::format(
+          R"(/// The controller of the scene {}. Written by sonoglide configure: edit the scene.
 #pragma once
 
 {}
@@ -186,6 +206,10 @@ inline constexpr control::Controller<Parts>::Parameters parameters{{
 {}}};
 
 {}
+/// What 2^31 of a code stands for, and a million millionths of a target.
+inline constexpr link::FullScales full_scales{{{{
+{}}}}};
+
 /// Of the drive{}.
 inline constexpr double carrier_period_s = {:a};
 
@@ -202,15 +226,15 @@ inline constexpr std::uint32_t design = {:#010x};
 
 }}  // namespace sonoglide::app::configuration
 )",
-              process::printable(scene.name),
-              includes(parts, ScalarName<Scalar>::header, targets.header), ScalarName<Scalar>::type,
-              types,
-              design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
-                                  : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
-              targets.lines, targets.drive, design.scales.carrier_period_s,
-              design.scales.every_periods, scene.drive->delay_periods,
-              scene.drive->interpolation == scene::Interpolation::linear, number),
-          number};
+          process::printable(scene.name),
+          includes(parts, ScalarName<Scalar>::header, targets.header), ScalarName<Scalar>::type,
+          types,
+          design.senses_force ? parameter_lines<Scalar, control::ForceSensor>(design, parts)
+                              : parameter_lines<Scalar, control::NoForceSensor>(design, parts),
+          targets.lines, scale_lines(scene, design), targets.drive, design.scales.carrier_period_s,
+          design.scales.every_periods, scene.drive->delay_periods,
+          scene.drive->interpolation == scene::Interpolation::linear, number),
+      number};
 }
 
 Header header(const configure::Experiment& experiment) {

@@ -16,6 +16,7 @@
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::python {
@@ -24,21 +25,16 @@ namespace {
 namespace py = pybind11;
 using app::parameter_labels;
 
-double number_of(std::uint32_t value, int places) {
-  return value / std::pow(10.0, places);
-}
-
-/// In units of the last decimal place. What does not fit is beyond every range, which the unit names.
-std::uint32_t count_of(double value, int places) {
-  const double scaled = std::round(value * std::pow(10.0, places));
-  return scaled >= 0.0 && scaled < UINT32_MAX ? static_cast<std::uint32_t>(scaled) : UINT32_MAX;
-}
+constexpr auto target_parameter = static_cast<std::size_t>(app::Parameter::target);
 
 /// A unit at a serial device. Several threads take turns.
 class Port {
  public:
   explicit Port(const std::string& device, double patience_s)
-      : patience_(milliseconds(patience_s)), port_(device), link_(port_, patience_) {}
+      : patience_(milliseconds(patience_s)),
+        port_(device),
+        link_(port_, patience_),
+        scales_(link_) {}
 
   py::dict identity() {
     const auto told = ask<link::Identity>(link::ReadIdentity{});
@@ -48,6 +44,14 @@ class Port {
     identity["design"] = told.design;
     identity["board"] = unit::board_of(told);
     identity["serial_number"] = told.serial_number;
+    py::dict full_scales;
+    for (std::size_t i = 0; i < link::quantity_count; ++i) {
+      const auto quantity = static_cast<link::Quantity>(i);
+      if (scales_.has(quantity)) {
+        full_scales[scales_.column_of(quantity).c_str()] = scales_[quantity].value;
+      }
+    }
+    identity["full_scales"] = full_scales;
     return identity;
   }
 
@@ -55,26 +59,30 @@ class Port {
     const auto told = ask<link::Telemetry>(link::ReadTelemetry{});
     py::dict status;
     status["period"] = told.period;
-    status["friction_force_code"] = told.friction_force;
-    status["sliding_velocity_code"] = told.sliding_velocity;
-    status["amplitude_code"] = told.amplitude;
-    status["target"] = number_of(told.target, places_of(app::Parameter::target));
+    const auto tell = [&](link::Quantity quantity, std::int32_t code) {
+      status[scales_.column_of(quantity).c_str()] =
+          scales_.value_of(quantity, static_cast<std::uint32_t>(code));
+    };
+    tell(link::Quantity::friction_force, told.friction_force);
+    tell(link::Quantity::sliding_velocity, told.sliding_velocity);
+    tell(link::Quantity::amplitude, told.amplitude);
+    status[scales_.column_of(link::Quantity::target).c_str()] = scales_.target_of(told.target);
     status["state"] = control::name(static_cast<control::State>(told.state));
     status["limit"] = control::name(static_cast<control::Limit>(told.limit));
     status["fault"] = app::fault_name(told.fault);
     status["settling"] = control::name(static_cast<control::Settling>(told.settling));
     status["parameters"] = app::name(static_cast<store::Origin>(told.parameters));
     status["nominal_over_true_friction"] =
-        told.mismatch == 0 ? py::object(py::none()) : py::float_(number_of(told.mismatch, 3));
+        told.mismatch == 0 ? py::object(py::none()) : py::float_(told.mismatch / 1e3);
     status["lost_frames"] = told.lost_frames;
     return status;
   }
 
   void set_target(double target) {
-    constexpr app::Parameter parameter = app::Parameter::target;
-    ask<link::TargetSet>(link::SetTarget{count_of(target, places_of(parameter))},
-                         static_cast<std::size_t>(parameter));
+    ask<link::TargetSet>(link::SetTarget{scales_.count_of_parameter(target_parameter, target)},
+                         target_parameter);
   }
+  bool holds_force() const { return scales_.holds_force(); }
 
   void stop() { ask<link::Stopped>(link::Stop{}); }
   void restart() { ask<link::Restarted>(link::Restart{}); }
@@ -101,10 +109,10 @@ class Port {
     const auto told =
         ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(number)}, number);
     py::dict parameter;
-    parameter["value"] = number_of(told.value, told.decimal_places);
-    parameter["lowest"] = number_of(told.lowest, told.decimal_places);
-    parameter["highest"] = number_of(told.highest, told.decimal_places);
-    parameter["compiled_in"] = number_of(told.preset, told.decimal_places);
+    parameter["value"] = scales_.value_of_parameter(number, told.value);
+    parameter["lowest"] = scales_.value_of_parameter(number, told.lowest);
+    parameter["highest"] = scales_.value_of_parameter(number, told.highest);
+    parameter["compiled_in"] = scales_.value_of_parameter(number, told.preset);
     return parameter;
   }
 
@@ -112,9 +120,8 @@ class Port {
     const std::size_t number = unit::parameter_named(name);
     link::WriteParameter request{};
     request.parameter = static_cast<std::uint8_t>(number);
-    request.value = number < app::parameter_count
-                        ? count_of(value, parameter_labels[number].decimal_places)
-                        : UINT32_MAX;
+    request.value =
+        number < app::parameter_count ? scales_.count_of_parameter(number, value) : UINT32_MAX;
     ask<link::ParameterWritten>(request, number, unit::longest_save);
   }
 
@@ -126,10 +133,6 @@ class Port {
           fmt::format("patience_s is {}; allowed: above 0, at most {}", time_s, longest_s));
     }
     return std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(1e3 * time_s)));
-  }
-
-  static constexpr int places_of(app::Parameter parameter) {
-    return parameter_labels[static_cast<std::size_t>(parameter)].decimal_places;
   }
 
   template <class Answer, class Request>
@@ -148,7 +151,7 @@ class Port {
              std::chrono::milliseconds work = {}) {
     const auto result = answer<Answer>(request, work);
     if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-      const std::string words = unit::words_of(*refusal, parameter);
+      const std::string words = unit::words_of(*refusal, parameter, scales_);
       const auto reason = static_cast<link::Reason>(refusal->reason);
       if (reason == link::Reason::out_of_range || reason == link::Reason::unknown_parameter) {
         throw std::invalid_argument(words);
@@ -162,6 +165,7 @@ class Port {
   std::mutex turn_;
   process::SerialPort port_;
   unit::UnitLink link_;
+  unit::UnitScales scales_;
 };
 
 py::list parameter_names() {
@@ -181,15 +185,17 @@ void add_port(py::module_& module) {
       .def(
           "identity", &Port::identity,
           "identity(self)\n--\n\nVersion of the firmware, number of the design, name of the board and serial\n"
-          "number; 0 where none was given.")
+          "number, 0 where none was given; full_scales of what the unit reads, answers and takes.")
       .def(
           "status", &Port::status,
-          "status(self)\n--\n\nWhat the unit measures and does in the present carrier period. Codes have full scale\n"
-          "at 2**31; the target is a friction ratio, or a force as part of the full scale of its sensor.")
+          "status(self)\n--\n\nWhat the unit measures and does in the present carrier period, in SI units:\n"
+          "friction_force_N, sliding_velocity_m_per_s, drive_amplitude_N (of a transducer drive_amplitude_V),\n"
+          "and target, a friction ratio, or target_force_N.")
       .def(
           "set_target", &Port::set_target, py::arg("target"),
-          "set_target(self, target)\n--\n\nUntil reset: a friction ratio, or a force as part of the full scale of its\n"
-          "sensor.")
+          "set_target(self, target)\n--\n\nUntil reset: a friction ratio, or where holds_force a friction force [N].")
+      .def_property_readonly("holds_force", &Port::holds_force,
+                             "A friction force is the target, not a ratio.")
       .def("stop", &Port::stop, "stop(self)\n--\n\nDrive to zero at once.")
       .def("restart", &Port::restart,
            "restart(self)\n--\n\nStarts the drive, from a stop, from a fault or from running.")
@@ -199,8 +205,9 @@ void add_port(py::module_& module) {
       .def(
           "faults", &Port::faults,
           "faults(self)\n--\n\nThe last faults and the carrier periods in which they were found, the latest first.")
-      .def("parameter", &Port::parameter, py::arg("name"),
-           "parameter(self, name)\n--\n\nIts value, its range and what was compiled in.")
+      .def(
+          "parameter", &Port::parameter, py::arg("name"),
+          "parameter(self, name)\n--\n\nIts value, its range and what was compiled in; of a force in newtons.")
       .def("set_parameter", &Port::set_parameter, py::arg("name"), py::arg("value"),
            "set_parameter(self, name, value)\n--\n\nSaves a parameter. Needs a stop first.");
 }

@@ -14,6 +14,7 @@
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
@@ -26,19 +27,27 @@ namespace {
 
 using app::parameter_labels;
 
+constexpr auto target_parameter = static_cast<std::size_t>(app::Parameter::target);
+
 /// A text as a count of units of a parameter's last decimal place.
 struct ReadValue {
   std::uint32_t count = 0;
   std::string error;  ///< why it is none; empty where it is one
 };
 
+/// Of a force in newtons the nearest count, of others the same number.
 /// @return the largest count of what is beyond every range: the unit names its own
-ReadValue read_value(const std::string& text, int places) {
+ReadValue read_value(const std::string& text, std::size_t parameter, const UnitScales& scales) {
   static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
   static const std::regex trailing_zeros("\\.?0*$");
   if (!std::regex_match(text, number)) {
     return {0, fmt::format("\"{}\" is no number", text)};
   }
+  if (scales.is_force(parameter)) {
+    const double force_N = number_of(text);
+    return {force_N < 0.0 ? UINT32_MAX : scales.count_of_parameter(parameter, force_N), ""};
+  }
+  const int places = parameter_labels[parameter].decimal_places;
   const bool negative = text.front() == '-';
   const std::string digits = text.substr(negative ? 1 : 0);
   const std::size_t point = digits.find('.');
@@ -58,23 +67,47 @@ std::string shown(const std::string& name, const std::vector<std::string>& words
   return words.empty() ? name : fmt::format("{} {}", name, fmt::join(words, " "));
 }
 
-std::string range_of(const link::ParameterValue& value) {
-  return fmt::format("{} to {}{}", decimal(value.lowest, value.decimal_places),
-                     decimal(value.highest, value.decimal_places),
-                     parameter_labels[value.parameter].unit);
+std::string range_of(const link::ParameterValue& value, const UnitScales& scales) {
+  return fmt::format("{} to {}{}", scales.text_of_parameter(value.parameter, value.lowest),
+                     scales.text_of_parameter(value.parameter, value.highest),
+                     scales.unit_of_parameter(value.parameter));
 }
 
-std::string text_of(const link::ParameterValue& value) {
+std::string text_of(const link::ParameterValue& value, const UnitScales& scales) {
   return fmt::format("{} {}, compiled in {}; allowed is {}", parameter_labels[value.parameter].name,
-                     decimal(value.value, value.decimal_places),
-                     decimal(value.preset, value.decimal_places), range_of(value));
+                     scales.text_of_parameter(value.parameter, value.value),
+                     scales.text_of_parameter(value.parameter, value.preset),
+                     range_of(value, scales));
 }
 
-std::string text_of(const link::Telemetry& told) {
-  std::string text = fmt::format("state {}, target {}, drive {}, limit {}",
-                                 control::name(static_cast<control::State>(told.state)),
-                                 decimal(told.target, 6), millionths_of_code(told.amplitude),
-                                 control::name(static_cast<control::Limit>(told.limit)));
+/// To six digits.
+std::string text_of(double value, link::ScaleUnit unit) {
+  const std::string number = output::plain_zero(fmt::format("{:.6g}", value));
+  switch (unit) {
+    case link::ScaleUnit::newton:
+      return number + " N";
+    case link::ScaleUnit::metre_per_second:
+      return number + " m/s";
+    case link::ScaleUnit::volt:
+      return number + " V";
+    case link::ScaleUnit::ratio:
+      return number;
+    case link::ScaleUnit::none:
+      break;
+  }
+  return "none";
+}
+
+std::string text_of(const link::Telemetry& told, const UnitScales& scales) {
+  constexpr auto amplitude = link::Quantity::amplitude;
+  std::string text =
+      fmt::format("state {}, target {}{}, drive {}, limit {}",
+                  control::name(static_cast<control::State>(told.state)),
+                  scales.text_of_parameter(target_parameter, told.target),
+                  scales.unit_of_parameter(target_parameter),
+                  text_of(scales.value_of(amplitude, static_cast<std::uint32_t>(told.amplitude)),
+                          scales[amplitude].unit),
+                  control::name(static_cast<control::Limit>(told.limit)));
   if (const auto settling = static_cast<control::Settling>(told.settling);
       settling != control::Settling::pending) {
     text += fmt::format(", {}", control::name(settling));
@@ -88,6 +121,15 @@ std::string text_of(const link::Telemetry& told) {
     text += fmt::format(", frames lost {}", told.lost_frames);
   }
   return text;
+}
+
+std::string text_of(const UnitScales& scales) {
+  const auto text = [&](link::Quantity quantity) {
+    return text_of(scales[quantity].value, scales[quantity].unit);
+  };
+  return fmt::format("full scale of force {}, velocity {}, drive {}, bias {}",
+                     text(link::Quantity::friction_force), text(link::Quantity::sliding_velocity),
+                     text(link::Quantity::amplitude), text(link::Quantity::bias));
 }
 
 std::string text_of(const link::Identity& told) {
@@ -111,11 +153,10 @@ struct Console::Command {
 
 const std::vector<Console::Command>& Console::commands() {
   static const std::vector<Command> all = {
-      {"identity", "identity", 0, 0,
-       [](Console& on, const Words&) { return Lines{on.identity()}; }},
+      {"identity", "identity", 0, 0, [](Console& on, const Words&) { return on.identity(); }},
       {"status", "status", 0, 0, [](Console& on, const Words&) { return on.status(); }},
-      {"target", "target NUMBER", 1, 1,
-       [](Console& on, const Words& words) { return on.set_target(words[0]); }},
+      {"target", "target NUMBER", 0, SIZE_MAX,
+       [](Console& on, const Words& words) { return on.set_target(words); }},
       {"stop", "stop", 0, 0, [](Console& on, const Words&) { return on.stop(); }},
       {"restart", "restart", 0, 0, [](Console& on, const Words&) { return on.restart(); }},
       {"confirm", "confirm", 0, 0, [](Console& on, const Words&) { return on.confirm(); }},
@@ -166,12 +207,13 @@ std::vector<std::string> Console::carry_out(const std::string& line) {
   return found->carry_out(*this, words);
 }
 
-std::string Console::identity() {
+std::vector<std::string> Console::identity() {
   const auto result = unit_.ask<link::Identity>(link::ReadIdentity{});
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refuse(*refusal, 0).front();
+    return refuse(*refusal, 0);
   }
-  return text_of(std::get<link::Identity>(result));
+  return {text_of(std::get<link::Identity>(result)),
+          fmt::format("target: {}; {}", allowed_target(), text_of(scales_))};
 }
 
 std::string Console::tell_news() {
@@ -192,12 +234,15 @@ Console::Lines Console::take_rows() {
 Console::Lines Console::status() {
   const link::Telemetry told = telemetry();
   told_fault_ = told.fault;
-  return {text_of(told)};
+  return {text_of(told, scales_)};
 }
 
-Console::Lines Console::set_target(const std::string& text) {
-  constexpr auto target = static_cast<std::size_t>(app::Parameter::target);
-  const ReadValue value = read_value(text, parameter_labels[target].decimal_places);
+Console::Lines Console::set_target(const Words& words) {
+  constexpr std::size_t target = target_parameter;
+  if (words.size() != 1) {
+    return refuse_usage("target", words, "; NUMBER: " + allowed_target());
+  }
+  const ReadValue value = read_value(words[0], target, scales_);
   if (!value.error.empty()) {
     return refuse_value(target, value.error);
   }
@@ -264,7 +309,7 @@ Console::Lines Console::list_parameter(const std::string& name) {
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     return refuse(*refusal, parameter);
   }
-  return {text_of(std::get<link::ParameterValue>(result))};
+  return {text_of(std::get<link::ParameterValue>(result), scales_)};
 }
 
 Console::Lines Console::set_parameter(const std::string& name, const std::string& text) {
@@ -272,7 +317,7 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
   link::WriteParameter request{};
   request.parameter = static_cast<std::uint8_t>(parameter);
   if (parameter < app::parameter_count) {
-    const ReadValue value = read_value(text, parameter_labels[parameter].decimal_places);
+    const ReadValue value = read_value(text, parameter, scales_);
     if (!value.error.empty()) {
       return refuse_value(parameter, value.error);
     }
@@ -282,9 +327,10 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     return refuse(*refusal, parameter);
   }
-  return {fmt::format("{} {}, saved", name,
-                      decimal(std::get<link::ParameterWritten>(result).value,
-                              parameter_labels[parameter].decimal_places))};
+  return {fmt::format(
+      "{} {}{}, saved", name,
+      scales_.text_of_parameter(parameter, std::get<link::ParameterWritten>(result).value),
+      scales_.is_force(parameter) ? " N" : "")};
 }
 
 Console::Lines Console::stream(const Words& words) {
@@ -350,7 +396,7 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
   }
   try {
     output::OutputFolder folder(path.parent_path(), {name});
-    folder.write(name, read_trace(unit_, state));
+    folder.write(name, read_trace(unit_, scales_, state));
     folder.commit();
   } catch (const process::FileError& error) {
     return refuse(error.what());
@@ -361,7 +407,8 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
 link::Telemetry Console::telemetry() {
   const auto result = unit_.ask<link::Telemetry>(link::ReadTelemetry{});
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    throw process::ProcessError("the unit does not tell its state: " + words_of(*refusal, 0));
+    throw process::ProcessError("the unit does not tell its state: " +
+                                words_of(*refusal, 0, scales_));
   }
   return std::get<link::Telemetry>(result);
 }
@@ -374,14 +421,21 @@ Console::Lines Console::refuse_usage(const std::string& name, const Words& words
   return refuse(fmt::format("\"{}\": allowed: {}{}", shown(name, words), command->usage, ranges));
 }
 
-Console::Lines Console::refuse_value(std::size_t parameter, const std::string& reason) {
-  const app::ParameterLabel& label = parameter_labels[parameter];
+std::string Console::allowed_target() {
+  return fmt::format("friction {}, {}", scales_.holds_force() ? "force" : "ratio",
+                     allowed_range(target_parameter));
+}
+
+std::string Console::allowed_range(std::size_t parameter) {
   const auto result =
       unit_.ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)});
   const auto* const told = std::get_if<link::ParameterValue>(&result);
-  return refuse(told == nullptr
-                    ? fmt::format("{}: {}", label.name, reason)
-                    : fmt::format("{}: {}; allowed is {}", label.name, reason, range_of(*told)));
+  return told == nullptr ? "what the unit does not tell" : range_of(*told, scales_);
+}
+
+Console::Lines Console::refuse_value(std::size_t parameter, const std::string& reason) {
+  return refuse(fmt::format("{}: {}; allowed is {}", parameter_labels[parameter].name, reason,
+                            allowed_range(parameter)));
 }
 
 Console::Lines Console::refuse(const std::string& reason) {
@@ -390,7 +444,7 @@ Console::Lines Console::refuse(const std::string& reason) {
 }
 
 Console::Lines Console::refuse(const link::Refusal& refusal, std::size_t parameter) {
-  return refuse(words_of(refusal, parameter));
+  return refuse(words_of(refusal, parameter, scales_));
 }
 
 }  // namespace sonoglide::unit

@@ -7,6 +7,7 @@
 
 #include "host_sim/unit/stream_table.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 
 namespace sonoglide::unit {
 
@@ -14,16 +15,17 @@ namespace sonoglide::unit {
 class Console {
  public:
   /// @param unit  outlives this
-  explicit Console(UnitLink& unit) : unit_(unit) {}
+  /// @throws process::ProcessError  the unit does not answer, or does not tell its scales
+  explicit Console(UnitLink& unit) : unit_(unit), scales_(unit) {}
 
   /// Carries out a command: `help` lists them. An empty line does nothing.
   /// @return the lines of the answer
   /// @throws process::ProcessError  the unit does not answer
   std::vector<std::string> carry_out(const std::string& line);
 
-  /// What the unit is, in words.
+  /// What the unit is, and in what it tells and takes its numbers.
   /// @throws process::ProcessError  the unit does not answer
-  std::string identity();
+  std::vector<std::string> identity();
 
   /// A sign of life to the unit.
   /// @return a line on each new fault that it finds, else nothing
@@ -45,7 +47,7 @@ class Console {
   static std::string help_text();
 
   Lines status();
-  Lines set_target(const std::string& text);
+  Lines set_target(const Words& words);
   Lines stop();
   Lines restart();
   Lines confirm();
@@ -61,6 +63,10 @@ class Console {
   link::Telemetry telemetry();
   /// Of a command with other words than it takes.
   Lines refuse_usage(const std::string& name, const Words& words, const std::string& ranges = "");
+  /// Of a target, as the unit has it: "friction force, 0 to 0.04 N".
+  std::string allowed_target();
+  /// "0 to 1".
+  std::string allowed_range(std::size_t parameter);
   /// Of a text that is no value of a parameter.
   Lines refuse_value(std::size_t parameter, const std::string& reason);
   Lines refuse(const std::string& reason);
@@ -68,7 +74,8 @@ class Console {
   Lines refuse(const link::Refusal& refusal, std::size_t parameter);
 
   UnitLink& unit_;
-  StreamTable table_;
+  UnitScales scales_;
+  StreamTable table_{scales_};
   std::size_t refused_ = 0;
   unsigned told_fault_ = 0;
 };

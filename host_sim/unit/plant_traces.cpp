@@ -9,6 +9,7 @@
 #include "firmware/app/unit_names.hpp"
 #include "firmware/control/interface/names.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 #include "host_sim/unit/unit_trace.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
@@ -28,7 +29,7 @@ constexpr std::size_t kept_before = 32;
 
 class Recording {
  public:
-  explicit Recording(UnitLink& unit) : unit_(unit) {}
+  explicit Recording(UnitLink& unit) : unit_(unit), scales_(unit) {}
   ~Recording() {
     try {
       unit_.ask<link::Stopped>(link::Stop{});
@@ -46,13 +47,13 @@ class Recording {
     return read();
   }
 
-  void start(std::uint32_t target) {
+  void start(double target) {
     require<link::Restarted>(link::Restart{});
     set_target(target);
     settle();
   }
 
-  RecordedTrace step(std::uint32_t target) {
+  RecordedTrace step(double target) {
     arm(link::Trigger::target, kept_before);
     // What comes before the step is kept first.
     wait(calm);
@@ -67,14 +68,15 @@ class Recording {
   Answer require(const Request& request, std::size_t parameter = 0) {
     const auto result = unit_.ask<Answer>(request);
     if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-      throw process::ProcessError("the unit refuses: " + words_of(*refusal, parameter));
+      throw process::ProcessError("the unit refuses: " + words_of(*refusal, parameter, scales_));
     }
     return std::get<Answer>(result);
   }
 
-  void set_target(std::uint32_t target) {
-    require<link::TargetSet>(link::SetTarget{target},
-                             static_cast<std::size_t>(app::Parameter::target));
+  void set_target(double target) {
+    constexpr auto parameter = static_cast<std::size_t>(app::Parameter::target);
+    require<link::TargetSet>(link::SetTarget{scales_.count_of_parameter(parameter, target)},
+                             parameter);
   }
 
   void arm(link::Trigger trigger, std::size_t before) {
@@ -128,6 +130,7 @@ class Recording {
   }
 
   UnitLink& unit_;
+  UnitScales scales_;
 };
 
 }  // namespace
@@ -150,7 +153,7 @@ bool has_design(UnitLink& unit, std::uint32_t controller) {
   return identity != nullptr && identity->design == app::design_number(controller, ranges);
 }
 
-std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<std::uint32_t>& targets,
+std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<double>& targets,
                                         const std::function<void(double)>& progress) {
   Recording recording(unit);
   std::vector<RecordedTrace> traces = {recording.undriven()};

@@ -27,11 +27,11 @@ bool has_design(UnitLink& unit, std::uint32_t controller);
 /// first, once it has settled at the one before. At the end, and whatever happens, the unit is stopped. It
 /// keeps its limits and finds its faults as ever.
 ///
-/// @param targets   more than one; millionths, as app::Parameter::target
+/// @param targets   more than one; friction ratios, or newtons
 /// @param progress  is told the part done
 /// @return          the undriven one first
 /// @throws process::ProcessError  the unit does not answer, refuses, has no trace or finds a fault
-std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<std::uint32_t>& targets,
+std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<double>& targets,
                                         const std::function<void(double)>& progress);
 
 }  // namespace sonoglide::unit

@@ -17,25 +17,40 @@ namespace {
 constexpr std::array<const char*, link::channel_count> channel_words = {
     "friction_force", "sliding_velocity", "amplitude", "commanded_ratio", "target", "state"};
 
-std::string column_of(std::size_t channel) {
-  return static_cast<link::Channel>(channel) == link::Channel::codes ? "state,limit,fault,settling"
-                                                                     : channel_words.at(channel);
-}
-
-std::string text_of(std::size_t channel, std::uint32_t value) {
+std::string column_of(std::size_t channel, const UnitScales& scales) {
   switch (static_cast<link::Channel>(channel)) {
-    case link::Channel::commanded_ratio:
-      return fmt::format("{}", static_cast<std::int32_t>(value) * 0x1p-30);
-    case link::Channel::target:
-      return fmt::format("{}", value / 1e6);
-    case link::Channel::codes:
-      return text_of_codes(value);
     case link::Channel::friction_force:
+      return scales.column_of(link::Quantity::friction_force);
     case link::Channel::sliding_velocity:
+      return scales.column_of(link::Quantity::sliding_velocity);
     case link::Channel::amplitude:
+      return scales.column_of(link::Quantity::amplitude);
+    case link::Channel::target:
+      return scales.column_of(link::Quantity::target);
+    case link::Channel::commanded_ratio:
+      return "commanded_ratio";
+    case link::Channel::codes:
       break;
   }
-  return text_of_code(value);
+  return "state,limit,fault,settling";
+}
+
+std::string text_of(std::size_t channel, std::uint32_t value, const UnitScales& scales) {
+  switch (static_cast<link::Channel>(channel)) {
+    case link::Channel::friction_force:
+      return scales.text_of(link::Quantity::friction_force, value);
+    case link::Channel::sliding_velocity:
+      return scales.text_of(link::Quantity::sliding_velocity, value);
+    case link::Channel::amplitude:
+      return scales.text_of(link::Quantity::amplitude, value);
+    case link::Channel::target:
+      return fmt::format("{}", scales.target_of(value));
+    case link::Channel::commanded_ratio:
+      return fmt::format("{}", static_cast<std::int32_t>(value) * 0x1p-30);
+    case link::Channel::codes:
+      break;
+  }
+  return text_of_codes(value);
 }
 
 }  // namespace
@@ -69,10 +84,6 @@ std::string channel_names() {
   return fmt::format("{}", fmt::join(channel_words, ", "));
 }
 
-std::string text_of_code(std::uint32_t code) {
-  return fmt::format("{}", static_cast<std::int32_t>(code) * 0x1p-31);
-}
-
 std::string text_of_codes(std::uint32_t codes) {
   return fmt::format("{},{},{},{}", control::name(static_cast<control::State>(codes & 0xFF)),
                      control::name(static_cast<control::Limit>(codes >> 8 & 0xFF)),
@@ -81,11 +92,12 @@ std::string text_of_codes(std::uint32_t codes) {
 }
 
 std::string StreamTable::begin(const link::Stream& stream) {
-  *this = {};
+  next_ = 0;
+  lost_ = 0;
   std::string columns = "number,period";
   for (std::size_t i = 0; i < link::channel_count; ++i) {
     if ((stream.channels >> i & 1U) != 0) {
-      columns += "," + column_of(i);
+      columns += "," + column_of(i, scales_);
     }
   }
   return columns;
@@ -97,7 +109,7 @@ std::string StreamTable::row(const link::Streamed& sample) {
   std::string row = fmt::format("{},{}", sample.number, sample.period);
   for (std::size_t i = 0; i < link::channel_count; ++i) {
     if (sample.has(i)) {
-      row += "," + text_of(i, sample.values.at(i));
+      row += "," + text_of(i, sample.values.at(i), scales_);
     }
   }
   return row;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/link/stream_messages.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 
 namespace sonoglide::unit {
 
@@ -19,15 +20,15 @@ std::optional<link::Stream> stream_of(const std::vector<std::string>& words);
 /// The names of the channels, a comma and a blank between them.
 std::string channel_names();
 
-/// A number that a code of full scale 2^31 stands for, exactly, in as few digits as it can be read back from.
-std::string text_of_code(std::uint32_t code);
-
 /// State, limit, fault and settling, a comma between them.
 std::string text_of_codes(std::uint32_t codes);
 
 /// Counts the samples that are left out.
 class StreamTable {
  public:
+  /// @param scales  of the unit; outlives this
+  explicit StreamTable(const UnitScales& scales) : scales_(scales) {}
+
   /// Begins anew.
   /// @return names of the columns
   std::string begin(const link::Stream& stream);
@@ -37,6 +38,7 @@ class StreamTable {
   std::size_t lost() const { return lost_; }
 
  private:
+  const UnitScales& scales_;
   std::uint16_t next_ = 0;
   std::size_t lost_ = 0;
 };

@@ -64,6 +64,9 @@ class UnitLink {
   /// @throws process::ProcessError  the device is gone
   std::vector<link::Streamed> take_streamed();
 
+  /// @throws process::ProcessError  the device, and what is wrong with it
+  [[noreturn]] void fail(const std::string& reason) const;
+
  private:
   /// @return the answer to the request, whatever sequence number the latter has
   link::Frame exchange(link::Frame request, std::chrono::milliseconds patience);
@@ -72,7 +75,6 @@ class UnitLink {
   bool receive(std::uint16_t sequence, std::chrono::milliseconds patience, link::Frame& answer);
   /// @return whether it ends a frame that is no sample of a stream
   bool take(std::uint8_t byte);
-  [[noreturn]] void fail(const std::string& reason) const;
 
   process::SerialPort& port_;
   std::chrono::milliseconds patience_;

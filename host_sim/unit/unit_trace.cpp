@@ -37,24 +37,28 @@ std::optional<std::uint16_t> count_of(const std::string& word) {
   return error == std::errc() && rest == end ? std::optional(count) : std::nullopt;
 }
 
-std::string row_of(std::uint32_t period, const link::TraceRecord& record, link::TraceExtra extra) {
+std::string row_of(std::uint32_t period, const link::TraceRecord& record, link::TraceExtra extra,
+                   const UnitScales& scales) {
+  const auto text = [&](link::Quantity quantity, std::int32_t code) {
+    return scales.text_of(quantity, static_cast<std::uint32_t>(code));
+  };
   std::string row = fmt::format("{},{},{},{},{},{}", period,
-                                text_of_code(static_cast<std::uint32_t>(record.friction_force)),
-                                text_of_code(static_cast<std::uint32_t>(record.sliding_velocity)),
-                                text_of_code(static_cast<std::uint32_t>(record.amplitude)),
-                                record.target / 1e6, text_of_codes(record.codes));
+                                text(link::Quantity::friction_force, record.friction_force),
+                                text(link::Quantity::sliding_velocity, record.sliding_velocity),
+                                text(link::Quantity::amplitude, record.amplitude),
+                                scales.target_of(record.target), text_of_codes(record.codes));
   if (extra == link::TraceExtra::bias) {
-    row += "," + text_of_code(static_cast<std::uint32_t>(record.other));
+    row += "," + text(link::Quantity::bias, record.other);
   } else if (extra == link::TraceExtra::frequency) {
     row += fmt::format(",{}", record.other);
   }
   return row;
 }
 
-const char* column_of(link::TraceExtra extra) {
+std::string column_of(link::TraceExtra extra, const UnitScales& scales) {
   switch (extra) {
     case link::TraceExtra::bias:
-      return ",bias";
+      return "," + scales.column_of(link::Quantity::bias);
     case link::TraceExtra::frequency:
       return ",frequency_steps";
     case link::TraceExtra::none:
@@ -118,14 +122,17 @@ std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceSta
   return records;
 }
 
-std::string read_trace(UnitLink& unit, const link::TraceState& state) {
+std::string read_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state) {
   const auto extra = static_cast<link::TraceExtra>(state.extra);
-  std::string table = fmt::format(
-      "period,friction_force,sliding_velocity,amplitude,target,state,limit,fault,settling{}\n",
-      column_of(extra));
+  std::string table =
+      fmt::format("period,{},{},{},{},state,limit,fault,settling{}\n",
+                  scales.column_of(link::Quantity::friction_force),
+                  scales.column_of(link::Quantity::sliding_velocity),
+                  scales.column_of(link::Quantity::amplitude),
+                  scales.column_of(link::Quantity::target), column_of(extra, scales));
   std::uint32_t period = state.first_period;
   for (const link::TraceRecord& record : read_records(unit, state)) {
-    table += row_of(period++, record, extra) + "\n";
+    table += row_of(period++, record, extra, scales) + "\n";
   }
   return table;
 }

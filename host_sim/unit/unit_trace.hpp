@@ -8,6 +8,7 @@
 
 #include "firmware/link/trace_messages.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 
 namespace sonoglide::unit {
 
@@ -25,9 +26,9 @@ std::string text_of(const link::TraceState& state);
 /// @throws process::ProcessError  the unit does not answer, or another host armed it anew
 std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceState& state);
 
-/// A whole trace as CSV: a row for each step, oldest first, with the names of the columns above them. Force,
-/// velocity, amplitude and bias are parts of their full scales, exactly.
+/// A whole trace as CSV: a row for each step, oldest first, with the names of the columns above them, which
+/// are those of periods.csv where both have the same.
 /// @throws process::ProcessError  as read_records()
-std::string read_trace(UnitLink& unit, const link::TraceState& state);
+std::string read_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state);
 
 }  // namespace sonoglide::unit

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <iterator>
 #include <vector>
 
@@ -20,11 +21,10 @@ std::string decimal(std::uint32_t value, int places) {
   return {text.data(), encoding::write_decimal(value, places, text.data())};
 }
 
-std::string millionths_of_code(std::int32_t code) {
-  const std::int64_t wide = code;
-  const auto scaled = static_cast<std::uint64_t>(wide < 0 ? -wide : wide) * 1'000'000;
-  const auto millionths = static_cast<std::uint32_t>((scaled + (1U << 30)) >> 31);
-  return (code < 0 && millionths > 0 ? "-" : "") + decimal(millionths, 6);
+double number_of(const std::string& text) {
+  double number = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
 }
 
 std::size_t parameter_named(const std::string& name) {
@@ -39,14 +39,14 @@ std::string board_of(const link::Identity& told) {
   return {told.board.begin(), std::find(told.board.begin(), told.board.end(), '\0')};
 }
 
-std::string words_of(const link::Refusal& refusal, std::size_t parameter) {
+std::string words_of(const link::Refusal& refusal, std::size_t parameter,
+                     const UnitScales& scales) {
   switch (static_cast<link::Reason>(refusal.reason)) {
-    case link::Reason::out_of_range: {
-      const app::ParameterLabel& label = parameter_labels[parameter];
-      return fmt::format("{}: allowed is {} to {}{}", label.name,
-                         decimal(refusal.lowest, label.decimal_places),
-                         decimal(refusal.highest, label.decimal_places), label.unit);
-    }
+    case link::Reason::out_of_range:
+      return fmt::format("{}: allowed is {} to {}{}", parameter_labels[parameter].name,
+                         scales.text_of_parameter(parameter, refusal.lowest),
+                         scales.text_of_parameter(parameter, refusal.highest),
+                         scales.unit_of_parameter(parameter));
     case link::Reason::unknown_parameter: {
       std::vector<std::string> names;
       names.reserve(std::size(parameter_labels));

@@ -6,14 +6,15 @@
 #include <string>
 
 #include "firmware/link/messages.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 
 namespace sonoglide::unit {
 
 /// A count of units of the last decimal place as a number, exactly.
 std::string decimal(std::uint32_t value, int places);
 
-/// What a code of full scale 2^31 stands for, of either sign, rounded to millionths.
-std::string millionths_of_code(std::int32_t code);
+/// A number as it is written in digits, with or without a sign and a point.
+double number_of(const std::string& text);
 
 /// @return its number, see app::Parameter; app::parameter_count if there is none
 std::size_t parameter_named(const std::string& name);
@@ -23,6 +24,6 @@ std::string board_of(const link::Identity& told);
 
 /// Why a unit refuses a request.
 /// @param parameter  of the value that was asked for
-std::string words_of(const link::Refusal& refusal, std::size_t parameter);
+std::string words_of(const link::Refusal& refusal, std::size_t parameter, const UnitScales& scales);
 
 }  // namespace sonoglide::unit

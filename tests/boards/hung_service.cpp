@@ -29,7 +29,7 @@ constexpr std::uint32_t settled = 300;  // periods
 
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, period_s, 0);
+    configuration::design, configuration::full_scales, period_s, 0);
 using Unit = app::Unit<configuration::Parts, Hardware::Flash>;
 
 /// Each call of sample() is an interrupt that begins a period.

@@ -25,7 +25,7 @@ namespace hal = sonoglide::hal;
 
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, configuration::step_period_s, 0);
+    configuration::design, configuration::full_scales, configuration::step_period_s, 0);
 using Design = app::FieldDesign<configuration::Parts>;
 using Supervised = app::CommandedSupervisor<Design::Controller, Design::Designed>;
 

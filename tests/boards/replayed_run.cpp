@@ -46,7 +46,7 @@ constexpr double period_s = hal::timed::loop_period_s<Hardware>(configuration::c
                                                                 configuration::every_periods);
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, period_s, 0);
+    configuration::design, configuration::full_scales, period_s, 0);
 
 }  // namespace
 

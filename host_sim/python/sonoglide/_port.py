@@ -10,7 +10,8 @@ from . import _core
 class Port(_core.Port):
     """A running unit (sonoglide image) at the other end of a serial line, as sonoglide connect talks to it.
     The unit takes its host for silent after its parameter host_timeout: a program that drives asks for
-    status() more often than that. Several threads may use a port; their requests take turns.
+    status() more often than that. Several threads may use a port; their requests take turns. Forces are in
+    newtons, as all is in SI units; where holds_force, so is the target.
 
     device      path of the serial device; 115200 baud
     patience_s  how long an answer may take before the request is sent again, twice

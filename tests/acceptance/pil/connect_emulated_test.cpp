@@ -37,13 +37,31 @@ TEST_F(ConnectEmulatedTest, TalksToTheUnitOfAScene) {
   EXPECT_EQ(outcome.out.find("mps2-an386, firmware "), 0U) << outcome.out;
   EXPECT_NE(outcome.out.find(", target 0.3, drive "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find(", target 0.7, drive "), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("state off, target 0.7, drive 0,"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("state off, target 0.7, drive 0 N,"), std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(ConnectEmulatedTest, AForceIsOrderedAndToldInNewtons) {
+  const Outcome outcome =
+      talk("'" SONOGLIDE_SCENES
+           "/target_step.toml' --emulated mps2-an386 --set controller.target_friction_ratio= "
+           "--set 'controller.target_friction_force_N=[[0.0,0.01]]'",
+           "identity\nstatus\ntarget 0.012\nstatus\ntarget 0.05\n");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(
+      outcome.out.find("\ntarget: friction force, 0 to 0.03924 N; full scale of force 0.03924 "
+                       "N, velocity "),
+      std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("state off, target 0.01 N, drive 0 N,"), std::string::npos);
+  EXPECT_NE(outcome.out.find("state off, target 0.012 N, drive 0 N,"), std::string::npos);
+  EXPECT_NE(outcome.out.find("\ntarget: allowed is 0 to 0.03924 N\n"), std::string::npos);
 }
 
 TEST_F(ConnectEmulatedTest, WithoutASceneItIsTheExample) {
   const Outcome outcome = talk("--emulated mps2-an386", "status\nnonsense\n");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.out.find("state off, target 0.4, drive 0,"), 0U) << outcome.out;
+  EXPECT_EQ(outcome.out.find("state off, target 0.4, drive 0 N,"), 0U) << outcome.out;
   EXPECT_NE(outcome.out.find("\"nonsense\": unknown; "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.err.find(": commands that were not carried out: 1"), std::string::npos);
 }

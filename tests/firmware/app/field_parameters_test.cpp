@@ -49,7 +49,8 @@ class FieldParametersTest : public testing::Test {
                                         {},
                                         {}};
   static constexpr double period_s = 1.0 / 60e3;
-  static constexpr Design design{designed, real(1.0 / 6.0), 1, period_s, default_timeout_ms};
+  static constexpr Design design{designed,    real(1.0 / 6.0), 1,
+                                 full_scales, period_s,        default_timeout_ms};
 
   static ParameterValues with(Parameter parameter, std::uint32_t value) {
     ParameterValues values = design.presets();
@@ -101,8 +102,8 @@ TYPED_TEST(FieldParametersTest, ATargetThatIsAForceHasTheFullScaleAsItsBase) {
   typename control::Controller<HoldingParts>::Parameters holding{};
   holding.friction_force = this->real(0.5);
   holding.target = {true};
-  const FieldDesign<HoldingParts> tested(holding, this->real(1.0 / 7.0), 1, TestFixture::period_s,
-                                         default_timeout_ms);
+  const FieldDesign<HoldingParts> tested(holding, this->real(1.0 / 7.0), 1, full_scales,
+                                         TestFixture::period_s, default_timeout_ms);
   const ParameterValues presets = tested.presets();
   EXPECT_EQ(presets[static_cast<std::size_t>(Parameter::target)], 142857U);
   EXPECT_TRUE(tested.target(142857) == this->real(1.0 / 7.0));
@@ -197,11 +198,14 @@ TYPED_TEST(FieldParametersTest, AnotherDesignHasAnotherNumber) {
   const auto target = this->real(1.0 / 6.0);
   const std::set<std::uint32_t> numbers{
       TestFixture::design.design(),
-      Other(TestFixture::designed, target, 2, TestFixture::period_s, default_timeout_ms).design(),
-      Other(TestFixture::designed, this->real(0.2), 1, TestFixture::period_s, default_timeout_ms)
+      Other(TestFixture::designed, target, 2, full_scales, TestFixture::period_s,
+            default_timeout_ms)
           .design(),
-      Other(TestFixture::designed, target, 1, TestFixture::period_s, 0).design(),
-      Other(other, target, 1, TestFixture::period_s, default_timeout_ms).design()};
+      Other(TestFixture::designed, this->real(0.2), 1, full_scales, TestFixture::period_s,
+            default_timeout_ms)
+          .design(),
+      Other(TestFixture::designed, target, 1, full_scales, TestFixture::period_s, 0).design(),
+      Other(other, target, 1, full_scales, TestFixture::period_s, default_timeout_ms).design()};
   EXPECT_EQ(numbers.size(), 5U);
 }
 
@@ -246,7 +250,7 @@ TYPED_TEST(FieldParametersTest, OfAnotherDesignOnlyLimitsAreInherited) {
 TYPED_TEST(FieldParametersTest, TheTimeoutIsCountedInCarrierPeriods) {
   using Other = typename TestFixture::Design;
   const auto periods = [](double period, std::uint32_t timeout_ms) {
-    const Other other(TestFixture::designed, TestFixture::real(1.0 / 6.0), 1, period,
+    const Other other(TestFixture::designed, TestFixture::real(1.0 / 6.0), 1, full_scales, period,
                       default_timeout_ms);
     return other.timeout_periods(TestFixture::with(Parameter::host_timeout, timeout_ms));
   };
@@ -283,8 +287,8 @@ void expect_drive_within_its_limit() {
       {numeric::from_real<S>(0.005), 60, numeric::from_real<S>(0.8)},
       {},
       {}};
-  static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1, 1.0 / 60e3,
-                                             default_timeout_ms);
+  static constexpr FieldDesign<Parts> design(designed, numeric::from_real<S>(0.2), 1, full_scales,
+                                             1.0 / 60e3, default_timeout_ms);
 
   ParameterValues values{};
   for (std::size_t i = 0; i < parameter_count; ++i) {

@@ -157,6 +157,19 @@ TEST(LinkServiceTest, SaysWhatItIs) {
   EXPECT_STREQ(told.board.data(), "test-stand");
 }
 
+TEST(LinkServiceTest, TellsTheFullScalesOfItsDesign) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  for (std::uint8_t i = 0; i < link::quantity_count; ++i) {
+    const auto told = powered.ask<link::Scale>(link::ReadScale{i});
+    EXPECT_EQ(told.quantity, i);
+    EXPECT_EQ(link::full_scale_of(told).unit, full_scales[i].unit);
+    EXPECT_EQ(link::full_scale_of(told).value, full_scales[i].value);
+  }
+  expect_refusal(powered.answer_to(link::ReadScale{link::quantity_count}), link::ReadScale::kind,
+                 Reason::out_of_range, 0, link::quantity_count - 1);
+}
+
 TEST(LinkServiceTest, HasNoNameWhereNoneWasGiven) {
   EXPECT_STREQ(Unnamed::board, "");
   EXPECT_EQ(Unnamed::serial_number(), 0U);
@@ -842,7 +855,8 @@ void expect_drives(PoweredUnit& powered) {
   EXPECT_LE(powered.board.latest_drive().amplitude, numeric::to_code(0.12) + 1);
 }
 
-constexpr FieldDesign<Parts> other_design(designed, 0.2F, 2, carrier_period_s, default_timeout_ms);
+constexpr FieldDesign<Parts> other_design(designed, 0.2F, 2, full_scales, carrier_period_s,
+                                          default_timeout_ms);
 
 TEST(LinkServiceTest, UnderAnotherDesignLimitsHoldAndTheUnitWaitsToBeTold) {
   SimulatedFlash flash = limited_flash();

@@ -73,7 +73,8 @@ int main() {
 #ifdef WITH_LINK
   static constexpr app::FieldDesign<configuration::Parts> design(
       configuration::parameters, app::first_target(configuration::target_steps),
-      configuration::design, configuration::step_period_s, app::default_timeout_ms);
+      configuration::design, configuration::full_scales, configuration::step_period_s,
+      app::default_timeout_ms);
   Flash flash;
   ByteLink bytes;
   app::Unit unit(design, flash);

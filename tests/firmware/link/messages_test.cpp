@@ -164,10 +164,29 @@ TEST(MessageBytes, AreThoseOfTheReference) {
       {frame_of(ReadTraceRecord{1023}, 14), "0004020e0e07ff033265c8a900"},
       {frame_of(trace_record(), 14),
        "0004028e0e12ff03feffffff1413121124232221801a060d03052204fbffffffcd496cda00"},
+      {frame_of(ReadScale{3}, 15), "0004020f0f0603aca2d47600"},
+      {frame_of(scale_of(3, {ScaleUnit::newton, 0.03924}), 15),
+       "0004028f0f0f030248dc63e94317a43f793fe0d100"},
+      {frame_of(scale_of(4, {ScaleUnit::none, 0.0}), 15),
+       "0004028f0f02040101010101010101054372b0cc00"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {
     EXPECT_EQ(hexadecimal(row.frame), row.bytes) << int{row.frame.kind};
+  }
+}
+
+TEST(ScaleFrame, IsReadToTheLastBit) {
+  for (const double value : {0.0, 1.0, 0.03924, 1920.0, 1.0 / 3.0, 5e-324, 1.7e308}) {
+    for (const ScaleUnit unit : {ScaleUnit::none, ScaleUnit::ratio, ScaleUnit::newton,
+                                 ScaleUnit::metre_per_second, ScaleUnit::volt}) {
+      const FullScale told{unit, value};
+      Scale found{};
+      ASSERT_TRUE(read(frame_of(scale_of(2, told), 7), found));
+      EXPECT_EQ(found.quantity, 2);
+      EXPECT_EQ(full_scale_of(found).unit, unit);
+      EXPECT_EQ(full_scale_of(found).value, value);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/emulated/board_limits.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -98,6 +99,31 @@ TEST(ControllerHeader, CountsTheTargetsInCarrierPeriods) {
                       read("target_step", {"controller.target_friction_ratio=[[0.0,0.4],[1e3,0.5]]",
                                            "run.duration_s=2e3", "run.record_interval_s=1e-3"})),
                   "{59999999, "));
+}
+
+// In the order of link::Quantity.
+TEST(ControllerHeader, StatesTheFullScalesInSiUnits) {
+  const auto scales = [](const experiment::Experiment& experiment) {
+    const std::string header = controller_header(experiment);
+    const std::size_t begin = header.find("full_scales{{\n");
+    return header.substr(begin, header.find("}};", begin) - begin);
+  };
+  const experiment::Experiment of_ratio = read("target_step", {"sensor.force_full_scale_N=0.5"});
+  EXPECT_EQ(scales(of_ratio),
+            "full_scales{{\n"
+            "    {link::ScaleUnit::newton, 0x1p-1},  // friction_force: 0.5\n" +
+                fmt::format(
+                    "    {{link::ScaleUnit::metre_per_second, {0:a}}},  // sliding_velocity: {0}\n",
+                    of_ratio.design->scales.velocity_m_per_s) +
+                "    {link::ScaleUnit::newton, 0x1.ep+10},  // amplitude: 1920\n"
+                "    {link::ScaleUnit::ratio, 0x1p+0},  // target: 1\n"
+                "    {link::ScaleUnit::none, 0x0p+0},  // bias: 0\n");
+  const std::string of_belt = scales(read("belt_force"));
+  EXPECT_TRUE(has(of_belt, "{link::ScaleUnit::volt, 0x1.f4p+8},  // amplitude: 500\n")) << of_belt;
+  EXPECT_TRUE(has(of_belt, "{link::ScaleUnit::newton, 0x1.2cp+9},  // target: 600\n")) << of_belt;
+  EXPECT_TRUE(
+      has(scales(read("target_step", {"drive.bias_limit_N=0.5", "plant.stiffness_N_per_m=25e6"})),
+          "{link::ScaleUnit::newton, 0x1p-1},  // bias: 0.5\n"));
 }
 
 TEST(ControllerHeader, IsForClosedLoopsWithTargetsInReach) {

@@ -1,3 +1,4 @@
+import contextlib
 import os
 import re
 import subprocess
@@ -7,20 +8,24 @@ import pytest
 import sonoglide
 
 BOARD = "mps2-an386"
+FORCE_FULL_SCALE_N = pytest.approx(0.03924, rel=1e-12)
+
+
+def image_of_scene(folder, *settings):
+    file = folder / "unit.elf"
+    scene = os.path.join(os.environ["SONOGLIDE_SCENES"], "target_step.toml")
+    command = [os.environ["SONOGLIDE_PROGRAM"], "image", scene, "--board", BOARD, "--out", file, "--quiet"]
+    subprocess.run(command + [f"--set={setting}" for setting in settings], check=True)
+    return file
 
 
 @pytest.fixture(scope="module")
 def image(tmp_path_factory):
-    file = tmp_path_factory.mktemp("unit") / "unit.elf"
-    scene = os.path.join(os.environ["SONOGLIDE_SCENES"], "target_step.toml")
-    subprocess.run(
-        [os.environ["SONOGLIDE_PROGRAM"], "image", scene, "--board", BOARD, "--out", file, "--quiet"], check=True
-    )
-    return file
+    return image_of_scene(tmp_path_factory.mktemp("unit"))
 
 
-@pytest.fixture
-def unit(image):
+@contextlib.contextmanager
+def running(image):
     """An emulated board whose serial line is a device."""
     command = ["qemu-system-arm", "-machine", BOARD, "-nic", "user,restrict=on", "-nodefaults", "-display", "none"]
     command += ["-icount", "shift=5", "-serial", "pty", "-kernel", image]
@@ -32,10 +37,20 @@ def unit(image):
             emulator.kill()
 
 
+@pytest.fixture
+def unit(image):
+    with running(image) as port:
+        yield port
+
+
 def test_a_unit_is_started_set_and_stopped(unit):
     assert unit.identity()["board"] == BOARD
     assert unit.identity()["version"] == sonoglide.__version__
     assert unit.status()["state"] == "off"
+    assert not unit.holds_force
+    scales = unit.identity()["full_scales"]
+    assert scales.pop("sliding_velocity_m_per_s") > 0.0
+    assert scales == {"friction_force_N": FORCE_FULL_SCALE_N, "drive_amplitude_N": 1920.0, "target": 1.0}
     unit.restart()
     assert unit.status()["state"] != "off"
     unit.set_target(0.5)
@@ -45,8 +60,23 @@ def test_a_unit_is_started_set_and_stopped(unit):
     assert unit.status()["period"] > status["period"]
     unit.stop()
     assert unit.status()["state"] == "off"
-    assert unit.status()["amplitude_code"] == 0
+    assert unit.status()["drive_amplitude_N"] == 0.0
+    assert 0.0 < unit.status()["friction_force_N"] < 0.03924
+    assert unit.parameter("friction_force")["highest"] == 0.03924
     assert unit.faults() == []
+
+
+def test_a_force_is_ordered_in_newtons(tmp_path):
+    of_force = ("controller.target_friction_ratio=", "controller.target_friction_force_N=[[0.0, 0.01]]")
+    with running(image_of_scene(tmp_path, *of_force)) as unit:
+        assert unit.holds_force
+        assert unit.identity()["full_scales"]["target_force_N"] == FORCE_FULL_SCALE_N
+        assert unit.status()["target_force_N"] == 0.01
+        unit.set_target(0.012)
+        assert unit.status()["target_force_N"] == 0.012
+        with pytest.raises(ValueError, match="target: allowed is 0 to 0.03924 N"):
+            unit.set_target(0.05)
+        assert unit.parameter("target")["highest"] == 0.03924
 
 
 def test_a_refusal_has_its_reason(unit):

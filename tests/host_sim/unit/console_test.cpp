@@ -29,6 +29,7 @@
 #include "firmware/link/trace_messages.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 #include "host_sim/unit/unit_words.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
@@ -76,25 +77,59 @@ class Device {
 
 constexpr std::size_t steps_kept = 200;
 
+/// Of a friction ratio.
+struct RatioDesign {
+  using Parts = app::Parts;
+  static constexpr app::FieldDesign<Parts> design{app::designed,         0.2F, 1, app::full_scales,
+                                                  app::carrier_period_s, 0};
+};
+
+/// Of a friction force: the controller of RatioDesign with another target.
+struct ForceDesign {
+  using Parts =
+      control::Parts<float, control::TrustedFriction<float>, control::CoulombFeedforward<float>,
+                     control::NoSlewLimit<float>, control::NoShaping<float>,
+                     control::IntegralRegulator<float, 1>, control::NoRelearning<float>,
+                     control::FedForward<float>, control::ForceSensor, control::ForceTarget<float>>;
+  static constexpr control::Controller<Parts>::Parameters designed = [] {
+    control::Controller<Parts>::Parameters parameters{};
+    parameters.friction_force = app::designed.friction_force;
+    parameters.smallest_friction = app::designed.smallest_friction;
+    parameters.speed_floor = app::designed.speed_floor;
+    parameters.regulator = app::designed.regulator;
+    parameters.standstill = app::designed.standstill;
+    parameters.stuck = app::designed.stuck;
+    parameters.plausibility = app::designed.plausibility;
+    parameters.watch = app::designed.watch;
+    parameters.target = {true};
+    return parameters;
+  }();
+  static constexpr link::FullScales full_scales = [] {
+    link::FullScales scales = app::full_scales;
+    scales[0] = {link::ScaleUnit::newton, 0.03924};
+    scales[3] = scales[0];
+    return scales;
+  }();
+  static constexpr app::FieldDesign<Parts> design{
+      designed, 0.25F, 1, full_scales, app::carrier_period_s, 0};
+};
+
 /// A unit that is served as fast as the machine can, and so has no time of its own.
+template <class Design>
 class ServedUnit {
  public:
   explicit ServedUnit(const PseudoTerminal& terminal) : link_(terminal) {}
 
-  static constexpr std::uint32_t design() { return design_.design(); }
-
  private:
-  static constexpr app::FieldDesign<app::Parts> design_{app::designed, 0.2F, 1,
-                                                        app::carrier_period_s, 0};
-  using Unit = app::Unit<app::Parts, app::SimulatedFlash, std::atomic, steps_kept>;
+  using Unit = app::Unit<typename Design::Parts, app::SimulatedFlash, std::atomic, steps_kept>;
   app::SimulatedFlash flash_;
-  Unit unit_{design_, flash_};
+  Unit unit_{Design::design, flash_};
   app::TimedBoard board_;
   app::CountingWatchdog watchdog_;
   TerminalLink link_;
   using Service = app::LinkService<Unit, TerminalLink, 32, app::TestedProduct>;
   Service service_{unit_, link_};
-  app::TimedLoop<Unit::Supervisor, app::TimedBoard, app::CountingWatchdog, Service> loop_{
+  app::TimedLoop<typename Unit::Supervisor, app::TimedBoard, app::CountingWatchdog, Service> loop_{
       unit_.supervisor(), board_, watchdog_, service_};
   Device served_{[this] {
     loop_.serve();
@@ -102,29 +137,89 @@ class ServedUnit {
   }};
 };
 
+constexpr auto target_parameter = static_cast<std::size_t>(app::Parameter::target);
+constexpr auto friction_parameter = static_cast<std::size_t>(app::Parameter::friction_force);
+constexpr auto limit_parameter = static_cast<std::size_t>(app::Parameter::drive_limit);
+
 // At resonance the drive of either phase has an amplitude of either sign.
-TEST(UnitWords, ADriveOfEitherSign) {
-  EXPECT_EQ(millionths_of_code(1 << 30), "0.5");
-  EXPECT_EQ(millionths_of_code(-(1 << 30)), "-0.5");
-  EXPECT_EQ(millionths_of_code(INT32_MAX), "1");
-  EXPECT_EQ(millionths_of_code(INT32_MIN), "-1");
-  EXPECT_EQ(millionths_of_code(-1), "0");
+TEST(UnitScalesTest, ACodeOfEitherSignIsAPartOfItsFullScale) {
+  const UnitScales scales(app::full_scales);
+  EXPECT_EQ(scales.text_of(link::Quantity::amplitude, 1U << 30), "960");
+  EXPECT_EQ(scales.text_of(link::Quantity::amplitude, 0U - (1U << 30)), "-960");
+  EXPECT_EQ(scales.text_of(link::Quantity::amplitude, 0x80000000U), "-1920");
+  EXPECT_EQ(scales.value_of(link::Quantity::friction_force, 12345678U), 12345678 * 0x1p-31 * 0.04);
 }
 
-class ConsoleTest : public testing::Test {
+TEST(UnitScalesTest, ColumnsHaveTheNamesOfPeriodsCsv) {
+  const UnitScales ratio(app::full_scales);
+  EXPECT_EQ(ratio.column_of(link::Quantity::friction_force), "friction_force_N");
+  EXPECT_EQ(ratio.column_of(link::Quantity::sliding_velocity), "sliding_velocity_m_per_s");
+  EXPECT_EQ(ratio.column_of(link::Quantity::amplitude), "drive_amplitude_N");
+  EXPECT_EQ(ratio.column_of(link::Quantity::target), "target");
+  EXPECT_FALSE(ratio.has(link::Quantity::bias));
+  link::FullScales full_scales = ForceDesign::full_scales;
+  full_scales[2] = {link::ScaleUnit::volt, 150.0};
+  full_scales[4] = {link::ScaleUnit::newton, 10.0};
+  const UnitScales force(full_scales);
+  EXPECT_EQ(force.column_of(link::Quantity::amplitude), "drive_amplitude_V");
+  EXPECT_EQ(force.column_of(link::Quantity::target), "target_force_N");
+  EXPECT_EQ(force.column_of(link::Quantity::bias), "bias_N");
+}
+
+// Every millionth, or every so many, of full scales of any size.
+TEST(UnitScalesTest, AForceIsReadBackFromItsText) {
+  for (const double full_scale_N : {0.03924, 1.0, 2.0 / 3.0, 7e-6, 12345.678}) {
+    link::FullScales full_scales = ForceDesign::full_scales;
+    full_scales[3].value = full_scale_N;
+    const UnitScales scales(full_scales);
+    EXPECT_TRUE(scales.is_force(target_parameter));
+    for (std::uint32_t count = 0; count <= 1'000'000; count += count < 100 ? 1 : 997) {
+      const std::string text = scales.text_of_parameter(target_parameter, count);
+      ASSERT_EQ(scales.count_of_parameter(target_parameter, number_of(text)), count) << text;
+      ASSERT_EQ(scales.target_of(count), number_of(text));
+      ASSERT_NEAR(number_of(text), count * 1e-6 * full_scale_N, 0.501e-6 * full_scale_N);
+    }
+  }
+}
+
+TEST(UnitScalesTest, AForceThatWasOrderedIsShown) {
+  const UnitScales scales(ForceDesign::full_scales);
+  for (const char* text : {"0", "0.012", "0.01", "0.0123", "0.039", "0.03924", "0.0000001"}) {
+    const std::uint32_t count = scales.count_of_parameter(target_parameter, number_of(text));
+    EXPECT_EQ(scales.text_of_parameter(target_parameter, count), text);
+  }
+  EXPECT_EQ(scales.count_of_parameter(target_parameter, 1e30), UINT32_MAX);
+  EXPECT_EQ(scales.count_of_parameter(target_parameter, -1.0), UINT32_MAX);
+}
+
+TEST(UnitScalesTest, WhatIsNoForceIsCountedInDecimalPlaces) {
+  const UnitScales ratio(app::full_scales);
+  EXPECT_FALSE(ratio.is_force(target_parameter));
+  EXPECT_EQ(ratio.text_of_parameter(target_parameter, 450'000), "0.45");
+  EXPECT_EQ(ratio.target_of(450'001), 0.450001);
+  EXPECT_EQ(ratio.count_of_parameter(target_parameter, 0.45), 450'000U);
+  EXPECT_TRUE(ratio.is_force(friction_parameter));
+  EXPECT_EQ(ratio.text_of_parameter(friction_parameter, 500'000), "0.02");
+  EXPECT_EQ(ratio.text_of_parameter(limit_parameter, 800'000), "0.8");
+}
+
+template <class Design>
+class ConsoleOf : public testing::Test {
  protected:
   Lines ask(const std::string& line) { return console_.carry_out(line); }
   std::string line_of(const std::string& line) { return ask(line).at(0); }
 
   PseudoTerminal terminal_;
-  ServedUnit served_{terminal_};
+  ServedUnit<Design> served_{terminal_};
   process::SerialPort port_{terminal_.device()};
   UnitLink link_{port_};
   Console console_{link_};
 };
+using ConsoleTest = ConsoleOf<RatioDesign>;
+using ForceConsole = ConsoleOf<ForceDesign>;
 
 TEST_F(ConsoleTest, StartsStopsAndSaysHowTheUnitIs) {
-  EXPECT_EQ(line_of("status").find("state off, target 0.4, drive 0, limit none, fault none, "
+  EXPECT_EQ(line_of("status").find("state off, target 0.4, drive 0 N, limit none, fault none, "
                                    "parameters blank, period "),
             0U);
   ask("restart");
@@ -132,24 +227,26 @@ TEST_F(ConsoleTest, StartsStopsAndSaysHowTheUnitIs) {
   for (int i = 0; i < 10 && status.find(", settled,") == std::string::npos; ++i) {
     status = line_of("status");
   }
-  EXPECT_EQ(status.find("state running, target 0.4, drive 0.17"), 0U) << status;
+  EXPECT_EQ(status.find("state running, target 0.4, drive 32"), 0U) << status;
   EXPECT_NE(status.find(", settled, nominal/true friction 1"), std::string::npos) << status;
   EXPECT_EQ(line_of("target 0.7").find("state running, target 0.7,"), 0U);
   EXPECT_EQ(line_of("set drive_limit 0.8"), "stop the drive first");
-  EXPECT_EQ(line_of("stop").find("state off, target 0.7, drive 0,"), 0U);
+  EXPECT_EQ(line_of("stop").find("state off, target 0.7, drive 0 N,"), 0U);
   EXPECT_EQ(ask("log"), (Lines{"faults since reset: 0"}));
   EXPECT_EQ(console_.refused(), 1U);
 }
 
 TEST_F(ConsoleTest, SaysWhatTheUnitIs) {
-  EXPECT_EQ(line_of("identity"),
-            fmt::format("test-stand, firmware 0.1.0, design {:#010x}, serial number 4711",
-                        served_.design()));
+  EXPECT_EQ(ask("identity"),
+            (Lines{fmt::format("test-stand, firmware 0.1.0, design {:#010x}, serial number 4711",
+                               RatioDesign::design.design()),
+                   "target: friction ratio, 0 to 1; full scale of force 0.04 N, velocity 5 m/s, "
+                   "drive 1920 N, bias none"}));
 }
 
 TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
   EXPECT_EQ(ask("stream state amplitude every 500"),
-            (Lines{"number,period,amplitude,state,limit,fault,settling"}));
+            (Lines{"number,period,drive_amplitude_N,state,limit,fault,settling"}));
   Lines rows;
   while (rows.size() < 20) {
     const Lines more = console_.take_rows();
@@ -225,18 +322,18 @@ TEST_F(TraceConsole, SavesTheStepsAroundANewTarget) {
   EXPECT_EQ(cause_, "target");
   EXPECT_EQ(trigger_, 30U);
   EXPECT_EQ(table.columns(),
-            (csv::Cells{"period", "friction_force", "sliding_velocity", "amplitude", "target",
-                        "state", "limit", "fault", "settling"}));
+            (csv::Cells{"period", "friction_force_N", "sliding_velocity_m_per_s",
+                        "drive_amplitude_N", "target", "state", "limit", "fault", "settling"}));
   ASSERT_EQ(table.rows().size(), steps_kept);
   for (std::size_t i = 0; i < steps_kept; ++i) {
     const csv::Row& row = table.rows()[i];
     EXPECT_EQ(row.number("period"), static_cast<double>(first_ + i));
     EXPECT_EQ(row.text("target"), i < 30 ? "0.4" : "0.7");
     EXPECT_EQ(row.text("fault"), "none");
-    EXPECT_NEAR(row.number("sliding_velocity"), app::TimedBoard::speed, 1e-9);
+    EXPECT_NEAR(row.number("sliding_velocity_m_per_s"), 5.0 * app::TimedBoard::speed, 1e-8);
   }
   const csv::Row& last = table.rows().back();
-  EXPECT_NEAR(last.number("friction_force"), 0.7 * app::TimedBoard::friction, 1e-3);
+  EXPECT_NEAR(last.number("friction_force_N"), 0.04 * 0.7 * app::TimedBoard::friction, 4e-5);
   EXPECT_EQ(last.text("state"), "running");
   EXPECT_EQ(line_of("trace save " + file_), file_ + ": is there already; allowed: a new file");
   EXPECT_EQ(console_.refused(), 1U);
@@ -260,11 +357,12 @@ TEST_F(TraceConsole, SavesWhatComesNowAndNamesWhatThereIs) {
 }
 
 TEST(StreamTableTest, CountsWhatIsLeftOutAndShowsCodesExactly) {
-  StreamTable table;
+  const UnitScales scales(app::full_scales);
+  StreamTable table(scales);
   EXPECT_EQ(table.begin({0x1B, 1}),
-            "number,period,friction_force,sliding_velocity,commanded_ratio,target");
+            "number,period,friction_force_N,sliding_velocity_m_per_s,commanded_ratio,target");
   EXPECT_EQ(table.row({65535, 0x1B, 7, {0x80000000, 1, 0, 0x40000000, 400000, 0}}),
-            "65535,7,-1,4.656612873077393e-10,1,0.4");
+            "65535,7,-0.04,2.3283064365386963e-09,1,0.4");
   EXPECT_EQ(table.lost(), 65535U);
   table.row({0, 0x1B, 8, {}});
   EXPECT_EQ(table.lost(), 65535U);
@@ -272,10 +370,47 @@ TEST(StreamTableTest, CountsWhatIsLeftOutAndShowsCodesExactly) {
   EXPECT_EQ(table.lost(), 65537U);
 }
 
+TEST_F(ForceConsole, TakesAndTellsForcesInNewtons) {
+  EXPECT_EQ(ask("identity").at(1),
+            "target: friction force, 0 to 0.03924 N; full scale of force 0.03924 N, velocity 5 "
+            "m/s, drive 1920 N, bias none");
+  EXPECT_EQ(line_of("status").find("state off, target 0.00981 N, drive 0 N, limit"), 0U);
+  EXPECT_EQ(line_of("target 0.012").find("state off, target 0.012 N, drive 0 N, limit"), 0U);
+  EXPECT_EQ(line_of("target 0.01234567").find("state off, target 0.0123457 N,"), 0U);
+  EXPECT_EQ(line_of("target 0.04"), "target: allowed is 0 to 0.03924 N");
+  EXPECT_EQ(line_of("target -0.01"), "target: allowed is 0 to 0.03924 N");
+  EXPECT_EQ(line_of("target x"), "target: \"x\" is no number; allowed is 0 to 0.03924 N");
+  EXPECT_EQ(line_of("target"),
+            "\"target\": allowed: target NUMBER; NUMBER: friction force, 0 to 0.03924 N");
+  EXPECT_EQ(line_of("params target"),
+            "target 0.00981, compiled in 0.00981; allowed is 0 to 0.03924 N");
+  EXPECT_EQ(line_of("set target 0.015"), "target 0.015 N, saved");
+  EXPECT_EQ(console_.refused(), 4U);
+}
+
+TEST_F(ForceConsole, StreamsAndHoldsAForceInNewtons) {
+  ask("target 0.012");
+  ask("restart");
+  for (int i = 0; i < 20 && line_of("status").find(", settled,") == std::string::npos; ++i) {
+  }
+  EXPECT_EQ(ask("stream friction_force target every 500"),
+            (Lines{"number,period,friction_force_N,target_force_N"}));
+  Lines rows;
+  while (rows.empty()) {
+    rows = console_.take_rows();
+    ask("status");
+  }
+  std::smatch found;
+  const std::regex pattern("[0-9]+,[0-9]+,([0-9.e-]+),0\\.012");
+  ASSERT_TRUE(std::regex_match(rows.back(), found, pattern)) << rows.back();
+  EXPECT_NEAR(std::stod(found[1]), 0.012, 1e-4);
+}
+
 TEST_F(ConsoleTest, ReadsAndWritesParametersByName) {
   const Lines all = ask("params");
   ASSERT_EQ(all.size(), app::parameter_count);
   EXPECT_EQ(all[1], "drive_limit 1, compiled in 1; allowed is 0 to 1");
+  EXPECT_EQ(all[3], "friction_force 0.02, compiled in 0.02; allowed is 0.00003908 to 0.04 N");
   EXPECT_EQ(all[7], "host_timeout 0, compiled in 0; allowed is 0 to 60 s");
   EXPECT_EQ(line_of("set drive_limit 0.8"), "drive_limit 0.8, saved");
   EXPECT_EQ(ask("params drive_limit"),
@@ -302,7 +437,8 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
 }
 
 TEST_F(ConsoleTest, ToldWhatACommandTakes) {
-  EXPECT_EQ(line_of("target"), "\"target\": allowed: target NUMBER");
+  EXPECT_EQ(line_of("target"),
+            "\"target\": allowed: target NUMBER; NUMBER: friction ratio, 0 to 1");
   EXPECT_EQ(line_of("stop now"), "\"stop now\": allowed: stop");
   EXPECT_EQ(line_of("set a"), "\"set a\": allowed: set NAME VALUE");
   EXPECT_EQ(line_of("set a 1 2"), "\"set a 1 2\": allowed: set NAME VALUE");
@@ -428,6 +564,11 @@ TEST(SaveTest, APlaceThatCannotBeWrittenIsToldBeforeTheTraceIsRead) {
     if (link::read(request, hello)) {
       return link::frame_of(link::Greeted{hello.session, 0}, number);
     }
+    link::ReadScale scale{};
+    if (link::read(request, scale)) {
+      return link::frame_of(link::scale_of(scale.quantity, app::full_scales.at(scale.quantity)),
+                            number);
+    }
     link::ReadTraceState state{};
     if (!link::read(request, state)) {
       link::Stream stream{};
@@ -528,6 +669,26 @@ TEST(UnitLinkTest, KnowsAUnitWithoutAHello) {
   const FakeUnit unit(terminal, refused_as_unknown);
   EXPECT_EQ(failure_at(terminal.device()),
             terminal.device() + ": knows no hello: its firmware is not of this program");
+}
+
+TEST(UnitLinkTest, AUnitThatTellsNoScalesIsTooOld) {
+  const PseudoTerminal terminal;
+  const FakeUnit unit(terminal, [](const link::Frame& request) {
+    link::Hello hello{};
+    return link::read(request, hello)
+               ? link::frame_of(link::Greeted{hello.session, 0}, request.sequence)
+               : refused_as_unknown(request);
+  });
+  process::SerialPort port(terminal.device());
+  UnitLink link(port);
+  try {
+    const Console console(link);
+    ADD_FAILURE() << "it is taken";
+  } catch (const process::ProcessError& error) {
+    EXPECT_EQ(error.what(), terminal.device() +
+                                ": does not tell its scales: its firmware is older than this "
+                                "program; build its image again");
+  }
 }
 
 TEST(UnitLinkTest, KnowsAUnitOfAnotherVersion) {

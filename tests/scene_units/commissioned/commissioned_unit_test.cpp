@@ -32,7 +32,8 @@ using Parts = configuration::Parts;
 
 constexpr FieldDesign<Parts> design(configuration::parameters,
                                     first_target(configuration::target_steps),
-                                    configuration::design, configuration::step_period_s, 0);
+                                    configuration::design, configuration::full_scales,
+                                    configuration::step_period_s, 0);
 
 /// A byte link of a unit, on the other end of a pseudo-terminal.
 class TerminalLink {

@@ -22,6 +22,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/words.hpp"
+#include "host_sim/unit/unit_scales.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/firmware/app/unit/simulated_line.hpp"
 #include "tests/scene_units/agreement/scene_unit.hpp"
@@ -88,6 +89,13 @@ class TracedPort : public PortOfParts<Parts> {
     for (int i = 0; i < periods; ++i) {
       step({});
     }
+  }
+  unit::UnitScales scales() {
+    link::FullScales told{};
+    for (std::uint8_t i = 0; i < told.size(); ++i) {
+      told.at(i) = link::full_scale_of(ask<link::Scale>(link::ReadScale{i}));
+    }
+    return unit::UnitScales(told);
   }
   link::TraceState state() { return ask<link::TraceState>(link::ReadTraceState{}); }
   std::vector<link::TraceRecord> trace() {
@@ -221,22 +229,24 @@ constexpr std::size_t in_force_after = 2;
 /// Records as the text of a table that would have a row for each, compared with those of periods.csv.
 class Comparison {
  public:
-  Comparison(const configure::Experiment& experiment, const std::vector<csv::Row>& rows)
-      : experiment_(experiment), rows_(rows) {}
+  Comparison(const configure::Experiment& experiment, const unit::UnitScales& told,
+             const std::vector<csv::Row>& rows)
+      : experiment_(experiment), told_(told), rows_(rows) {}
 
   /// @param step  of the run, from 0 on: the sample of that carrier period
   void compare(const link::TraceRecord& record, std::size_t step) {
     const scene::Scene& scene = experiment_.plant;
     const configure::ControlScales& scales = experiment_.design->scales;
     if (step + 1 < rows_.size() && !scene.sensor.velocity_bits) {
-      ASSERT_EQ(record.sliding_velocity, code_of(rows_[step + 1].number("sliding_velocity_m_per_s"),
-                                                 scales.velocity_m_per_s))
+      ASSERT_EQ(
+          record.sliding_velocity,
+          code_of(number(rows_[step + 1], Quantity::sliding_velocity), scales.velocity_m_per_s))
           << step;
       ++velocities;
     }
     if (step < rows_.size() && experiment_.design->holds_force) {
       ASSERT_EQ(record.friction_force,
-                code_of(rows_[step].number("friction_force_N"), scales.force_N))
+                code_of(number(rows_[step], Quantity::friction_force), scales.force_N))
           << step;
       ++forces;
     }
@@ -251,30 +261,32 @@ class Comparison {
   std::size_t answers = 0;
 
  private:
+  using Quantity = link::Quantity;
+
+  double number(const csv::Row& row, Quantity quantity) const {
+    return row.number(told_.column_of(quantity));
+  }
+  /// As sonoglide connect writes it, and as `run` does.
+  void expect_same(Quantity quantity, const std::string& text, const csv::Row& row) const {
+    ASSERT_EQ(text, row.text(told_.column_of(quantity))) << row.text("time_s");
+  }
+
   void compare_answer(const link::TraceRecord& record, const csv::Row& row) {
-    const scene::Scene& scene = experiment_.plant;
-    const std::string& time = row.text("time_s");
-    ASSERT_EQ(fmt::format("{}", record.amplitude * 0x1p-31 * scene.max_drive_force_N()),
-              row.text("drive_amplitude_N"))
-        << time;
+    const auto text = [&](Quantity quantity, std::int32_t code) {
+      return told_.text_of(quantity, static_cast<std::uint32_t>(code));
+    };
+    expect_same(Quantity::amplitude, text(Quantity::amplitude, record.amplitude), row);
+    expect_same(Quantity::target, fmt::format("{}", told_.target_of(record.target)), row);
+    if (told_.has(Quantity::bias)) {
+      expect_same(Quantity::bias, text(Quantity::bias, record.other), row);
+    }
     ASSERT_EQ(control::name(static_cast<control::Limit>(record.codes >> 8 & 0xFF)),
               row.text("limit"))
-        << time;
-    const bool of_force = experiment_.design->holds_force;
-    ASSERT_EQ(record.target, std::lround(1e6 * row.number(of_force ? "target_force_N" : "target") /
-                                         scene.highest_target()))
-        << time;
-    if (!of_force) {
-      ASSERT_EQ(fmt::format("{}", record.target / 1e6), row.text("target")) << time;
-    }
-    if (scene.drive->bias_limit_N > 0.0) {
-      ASSERT_EQ(fmt::format("{}", record.other * 0x1p-31 * scene.drive->bias_limit_N),
-                row.text("bias_N"))
-          << time;
-    }
+        << row.text("time_s");
   }
 
   const configure::Experiment& experiment_;
+  const unit::UnitScales& told_;
   const std::vector<csv::Row>& rows_;
 };
 
@@ -310,8 +322,11 @@ void expect_trace_is_periods(const std::string& file, const FieldDesign<Parts>& 
   } else {
     EXPECT_EQ(trigger, 0U);
   }
+  const unit::UnitScales told = port.scales();
+  EXPECT_EQ(told.holds_force(), experiment.design->holds_force);
+  EXPECT_EQ(told.has(link::Quantity::bias), experiment.plant.drive->bias_limit_N > 0.0);
   const std::vector<link::TraceRecord> records = port.trace();
-  Comparison comparison(experiment, periods.rows());
+  Comparison comparison(experiment, told, periods.rows());
   for (std::size_t i = 0; i < records.size(); ++i) {
     comparison.compare(records[i], first + i);
     if (testing::Test::HasFatalFailure()) {
@@ -337,7 +352,8 @@ void expect_traces_are_periods(const std::string& file, const FieldDesign<Parts>
 #define DESIGN(scene)                                                                       \
   constexpr FieldDesign<scene##_configuration::Parts> scene(                                \
       scene##_configuration::parameters, first_target(scene##_configuration::target_steps), \
-      scene##_configuration::design, scene##_configuration::step_period_s, 0)
+      scene##_configuration::design, scene##_configuration::full_scales,                    \
+      scene##_configuration::step_period_s, 0)
 
 DESIGN(target_step);
 DESIGN(force_target);

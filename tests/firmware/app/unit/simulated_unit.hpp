@@ -46,7 +46,12 @@ inline constexpr control::Controller<Parts>::Parameters designed = [] {
   return parameters;
 }();
 inline constexpr double carrier_period_s = 1.0 / 60e3;
-inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1, carrier_period_s,
+inline constexpr link::FullScales full_scales{{{link::ScaleUnit::newton, 0.04},
+                                               {link::ScaleUnit::metre_per_second, 5.0},
+                                               {link::ScaleUnit::newton, 1920.0},
+                                               {link::ScaleUnit::ratio, 1.0},
+                                               {link::ScaleUnit::none, 0.0}}};
+inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1, full_scales, carrier_period_s,
                                                  default_timeout_ms);
 
 /// A Coulomb contact under a board whose drive comes into force with each carrier period.
