@@ -62,7 +62,7 @@ std::vector<std::string> emulate(const std::string& board, const std::string& im
   return command;
 }
 
-/// What an answer says after a word: of "drive" in "..., drive 0.25, ...", "0.25".
+/// What an answer says after a word: of "drive" in "..., drive 480 N, ...", "480 N".
 std::string said(const std::string& answer, const std::string& word) {
   const std::size_t at = answer.find(word + " ");
   if (at == std::string::npos) {
@@ -197,7 +197,8 @@ void expect_settled(Terminal& terminal, double target) {
   EXPECT_EQ(said(status, "fault"), "none") << status;
   EXPECT_NE(status.find(", settled,"), std::string::npos) << status;
   // The contact that stands in has the ratio v / a, with v a tenth of full drive.
-  EXPECT_NEAR(std::stod(said(status, "drive")), 0.1 / target, 1e-3) << status;
+  constexpr double full_drive_N = 1920.0;
+  EXPECT_NEAR(std::stod(said(status, "drive")) / full_drive_N, 0.1 / target, 1e-3) << status;
 }
 
 class TimedUnit : public testing::TestWithParam<TimedBoard> {
@@ -229,7 +230,7 @@ TEST_P(TimedUnit, IsOffFromPowerOnAndSaysWhy) {
   terminal.connect();
   for (int i = 0; i < 2; ++i) {
     const std::string status = terminal.type("status");
-    EXPECT_EQ(said(status, "drive"), "0") << status;
+    EXPECT_EQ(said(status, "drive"), "0 N") << status;
     EXPECT_EQ(said(status, "state"), is_held_off() ? "fault" : "off") << status;
     EXPECT_EQ(said(status, "fault"), is_held_off() ? "parameters_lost" : "none") << status;
     EXPECT_EQ(said(status, "parameters"), GetParam().parameters) << status;
@@ -276,7 +277,7 @@ TEST_P(TimedUnit, StopsAndRestartsOnRequestAlone) {
   start(terminal);
   const std::string stopped = terminal.type("stop");
   EXPECT_EQ(said(stopped, "state"), "off");
-  EXPECT_EQ(said(stopped, "drive"), "0");
+  EXPECT_EQ(said(stopped, "drive"), "0 N");
   EXPECT_EQ(said(terminal.type("status"), "state"), "off");
   terminal.type("restart");
   expect_settled(terminal, 0.4);
@@ -296,7 +297,7 @@ TEST_P(TimedUnit, KeepsSavedParametersAsFarAsItsBoardCan) {
   if (origin == "stored") {
     expect_settled(terminal, 0.4);
   } else {
-    EXPECT_EQ(said(terminal.type("status"), "drive"), "0");
+    EXPECT_EQ(said(terminal.type("status"), "drive"), "0 N");
   }
 }
 
@@ -306,7 +307,7 @@ TEST_P(TimedUnit, LosesItsDriveToASilentHostAsFarAsItsBoardSavesATimeout) {
   terminal.type("set host_timeout 0.001");
   start_told(terminal);
   if (saves()) {
-    const std::string status = terminal.await("drive 0,");
+    const std::string status = terminal.await("drive 0 N,");
     EXPECT_EQ(said(status, "state"), "fault") << status;
     EXPECT_EQ(said(status, "fault"), "host_silent") << status;
   } else {
@@ -320,7 +321,7 @@ TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
   for (std::uint32_t faults = 1; faults < 4; ++faults) {
     const std::string status = terminal.type("status");
     EXPECT_EQ(said(status, "state"), "fault") << status;
-    EXPECT_EQ(said(status, "drive"), "0") << status;
+    EXPECT_EQ(said(status, "drive"), "0 N") << status;
     EXPECT_EQ(said(status, "fault"), "overrun") << status;
     const std::vector<std::string> log = terminal.lines("log");
     const std::uint32_t before = is_held_off() ? 1 : 0;

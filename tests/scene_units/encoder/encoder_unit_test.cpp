@@ -85,7 +85,7 @@ Both of_target_step(const std::vector<std::string>& changes) {
   namespace configuration = target_step_configuration;
   constexpr FieldDesign<configuration::Parts> design(
       configuration::parameters, first_target(configuration::target_steps), configuration::design,
-      configuration::step_period_s, 0);
+      configuration::full_scales, configuration::step_period_s, 0);
   return of<25'000'000>("target_step", textured(changes), design, configuration::parameters,
                         configuration::target_steps);
 }
@@ -94,7 +94,7 @@ Both of_speed_reversal(const std::vector<std::string>& changes) {
   namespace configuration = speed_reversal_configuration;
   constexpr FieldDesign<configuration::Parts> design(
       configuration::parameters, first_target(configuration::target_steps), configuration::design,
-      configuration::step_period_s, 0);
+      configuration::full_scales, configuration::step_period_s, 0);
   return of<25'000'000>("speed_reversal", textured(changes), design, configuration::parameters,
                         configuration::target_steps);
 }
@@ -103,7 +103,7 @@ Both of_fingertip(const std::vector<std::string>& changes) {
   namespace configuration = fingertip_configuration;
   constexpr FieldDesign<configuration::Parts> design(
       configuration::parameters, first_target(configuration::target_steps), configuration::design,
-      configuration::step_period_s, 0);
+      configuration::full_scales, configuration::step_period_s, 0);
   return of<1'000'000>("fingertip", changes, design, configuration::parameters,
                        configuration::target_steps);
 }
