@@ -57,11 +57,25 @@ function(sonoglide_unite target)
 endfunction()
 
 # sonoglide_optimise(<-O1 or -O2> <rooms>...): rooms that gain nothing from -O3, in which the solvers
-# are twice as fast, and with which a room takes half as long again to compile.
+# are twice as fast, and with which a room takes half as long again to compile. The sanitizers have those
+# that compute, -O2 here, in -O1, and all else in -O0.
 function(sonoglide_optimise level)
   foreach(target IN LISTS ARGN)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+    if(level STREQUAL "-O2")
+      sonoglide_optimise_sanitized(${target})
+    endif()
   endforeach()
+endfunction()
+
+# sonoglide_optimise_sanitized(<rooms>...): compute for longer at -O0 than they take to compile so. Clang's
+# -O1 alone inlines nothing.
+function(sonoglide_optimise_sanitized)
+  if(SONOGLIDE_SANITIZE)
+    foreach(target IN LISTS ARGN)
+      target_compile_options(${target} PRIVATE -O1 -finline-functions)
+    endforeach()
+  endif()
 endfunction()
 
 # Compiles every header of a room without sources alone, with nothing in sight
@@ -98,6 +112,7 @@ function(sonoglide_test name)
   target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
   if(TEST_OPTIMISED)
     sonoglide_optimise(-O1 ${name})
+    sonoglide_optimise_sanitized(${name})
   else()
     sonoglide_optimise(-O0 ${name})
     target_precompile_headers(${name} REUSE_FROM sonoglide_test_headers)
