@@ -9,6 +9,7 @@
 #include "host_sim/loop/plant/sliding_profile.hpp"
 #include "host_sim/loop/steady/requirement.hpp"
 #include "host_sim/loop/steady/self_excitation.hpp"
+#include "host_sim/output/number.hpp"
 #include "host_sim/report/step_metrics.hpp"
 
 namespace sonoglide::report {
@@ -61,6 +62,13 @@ std::vector<std::string> self_excitation_notes(const scene::Scene& scene) {
     }
   }
   return notes;
+}
+
+std::string missed_windows_text(double most_N) {
+  return fmt::format(
+      "A window narrower than {:g} % of its force and than {} may be missed, unless averaging has it "
+      "too.",
+      100.0 * steady::narrowest_part, output::quantity(most_N / steady::scan_steps, "N"));
 }
 
 }  // namespace sonoglide::report

@@ -20,4 +20,8 @@ bool excites_itself(const scene::Scene& scene, double time_s, double drive_force
 /// @param scene  any
 std::vector<std::string> self_excitation_notes(const scene::Scene& scene);
 
+/// How narrow a window of the drive may be and still be missed, in a sentence.
+/// @param most_N  the strongest drive of the scan
+std::string missed_windows_text(double most_N);
+
 }  // namespace sonoglide::report

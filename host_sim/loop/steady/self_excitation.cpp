@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -69,18 +71,50 @@ double orbit_multiplier(const scene::Scene& scene, double sliding_m_per_s, doubl
   }
 }
 
-/// Places from none to all of the drive, those about the force at which the sliding begins to
-/// reverse among them: there the mean friction changes abruptly.
-std::vector<double> forces_to_try(const scene::Scene& scene, double sliding_m_per_s,
-                                  double most_N) {
-  constexpr int steps = 96;
+/// Places from none to all of the drive: by equal steps, and, while these are longer, by equal factors about the
+/// force at which the sliding begins to reverse. There the mean friction changes abruptly, and a scan
+/// must not depend on how much more the drive can.
+std::vector<double> scan_forces_N(const scene::Scene& scene, double sliding_m_per_s, double most_N,
+                                  double factor) {
+  constexpr double first_part = 0.01;
+  constexpr double least_part =
+      1e-9;  // where the mode lies at the carrier nothing is needed to reverse
+  const double reversing_N = force_N(scene, sliding_m_per_s);
+  const double step_N = most_N / scan_steps;
   std::vector<double> all;
-  for (int i = 0; i <= steps; ++i) {
-    all.push_back(most_N * i / steps);
+  for (int i = 0; i <= scan_steps; ++i) {
+    all.push_back(most_N * i / scan_steps);
   }
   for (const double part : {0.99, 1.01}) {
-    if (const double reversing_N = part * force_N(scene, sliding_m_per_s); reversing_N < most_N) {
-      all.push_back(reversing_N);
+    all.push_back(part * reversing_N);
+  }
+  for (double place_N = std::max(first_part * reversing_N, least_part * most_N);
+       place_N * (factor - 1.0) < step_N; place_N *= factor) {
+    all.push_back(place_N);
+  }
+  all.erase(std::remove_if(all.begin(), all.end(), [&](double each) { return each > most_N; }),
+            all.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// Between neighbours of one fate, those that a function comes nearest to the other fate at.
+template <class Multiplier>
+std::vector<double> with_extremes(const std::vector<double>& forces_N,
+                                  const Multiplier& multiplier) {
+  constexpr int bits = 26;
+  std::vector<double> values;
+  for (const double force_N : forces_N) {
+    values.push_back(multiplier(force_N));
+  }
+  std::vector<double> all = forces_N;
+  for (std::size_t i = 1; i + 1 < forces_N.size(); ++i) {
+    const double sign = values[i] > 1.0 ? 1.0 : -1.0;
+    if (sign * values[i] < sign * values[i - 1] && sign * values[i] < sign * values[i + 1]) {
+      const auto distance = [&](double force_N) { return sign * multiplier(force_N); };
+      all.push_back(
+          boost::math::tools::brent_find_minima(distance, forces_N[i - 1], forces_N[i + 1], bits)
+              .first);
     }
   }
   std::sort(all.begin(), all.end());
@@ -97,10 +131,11 @@ bool is_beside(double multiplier, Fate fate, Fate next) {
 
 /// By halving: a multiplier may jump, or have no value at places.
 template <class Multiplier>
-double edge_between(const Multiplier& multiplier, double low_N, double high_N, Fate fate, Fate next,
-                    double most_N) {
+double edge_between(const Multiplier& multiplier, double low_N, double high_N, Fate fate,
+                    Fate next) {
   constexpr double accuracy = 1e-9;
-  while (high_N - low_N > accuracy * most_N) {
+  const double enough_N = accuracy * high_N;
+  while (high_N - low_N > enough_N) {
     const double middle_N = 0.5 * (low_N + high_N);
     (is_beside(multiplier(middle_N), fate, next) ? low_N : high_N) = middle_N;
   }
@@ -117,7 +152,7 @@ std::vector<DriveWindow> windows(const std::vector<double>& forces_N, double mos
   for (std::size_t i = 1; i < forces_N.size(); ++i) {
     if (fates[i] != fates[i - 1]) {
       all.back().high_N =
-          edge_between(multiplier, forces_N[i - 1], forces_N[i], fates[i - 1], fates[i], most_N);
+          edge_between(multiplier, forces_N[i - 1], forces_N[i], fates[i - 1], fates[i]);
       all.push_back({all.back().high_N, most_N, fates[i]});
     }
   }
@@ -179,15 +214,24 @@ double undriven_exponent(const scene::Scene& scene, double sliding_m_per_s) {
 
 std::vector<DriveWindow> drive_windows(const scene::Scene& scene, double sliding_m_per_s,
                                        double most_N) {
-  return windows(forces_to_try(scene, sliding_m_per_s, most_N), most_N,
+  std::vector<double> forces_N =
+      scan_forces_N(scene, sliding_m_per_s, most_N, 1.0 + narrowest_part);
+  for (const DriveWindow& each : averaged_drive_windows(scene, sliding_m_per_s, most_N)) {
+    forces_N.push_back(0.5 * (each.low_N + each.high_N));
+  }
+  std::sort(forces_N.begin(), forces_N.end());
+  return windows(forces_N, most_N,
                  [&](double force_N) { return orbit_multiplier(scene, sliding_m_per_s, force_N); });
 }
 
 std::vector<DriveWindow> averaged_drive_windows(const scene::Scene& scene, double sliding_m_per_s,
                                                 double most_N) {
-  return windows(forces_to_try(scene, sliding_m_per_s, most_N), most_N, [&](double force_N) {
+  constexpr double factor = 1.02;  // a closed form takes little time
+  const auto multiplier = [&](double force_N) {
     return averaged_multiplier(scene, sliding_m_per_s, force_N);
-  });
+  };
+  return windows(with_extremes(scan_forces_N(scene, sliding_m_per_s, most_N, factor), multiplier),
+                 most_N, multiplier);
 }
 
 }  // namespace sonoglide::steady

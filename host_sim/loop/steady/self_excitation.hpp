@@ -61,14 +61,19 @@ struct DriveWindow {
   Fate fate;
 };
 
+/// A scan for windows goes from no drive to the strongest by equal steps; above a hundredth of the force at
+/// which the sliding begins to reverse no step is longer than this part of its force.
+inline constexpr int scan_steps = 96;
+inline constexpr double narrowest_part = 0.1;
+
 /// From no drive to the strongest, by rising force; neighbours have different fates.
 /// @param most_N  > 0
-/// Error: edges where the multiplier is within 1e-6 of 1. A window narrower than most_N/96 may be
-/// missed.
+/// Error: edges where the multiplier is within 1e-6 of 1. A window narrower than most_N/scan_steps and
+/// than narrowest_part of its force may be missed where the averaged multiplier does not have it too.
 std::vector<DriveWindow> drive_windows(const scene::Scene& scene, double sliding_m_per_s,
                                        double most_N);
 
-/// The same by the averaged multiplier.
+/// The same by the averaged multiplier, whose extremes are looked for between the places of a finer scan.
 std::vector<DriveWindow> averaged_drive_windows(const scene::Scene& scene, double sliding_m_per_s,
                                                 double most_N);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host_sim/output/number.hpp"
+#include "host_sim/report/self_excitation.hpp"
 #include "host_sim/studies/design/report.hpp"
 
 namespace sonoglide::design {
@@ -55,18 +56,21 @@ Advice self_excitation_advice(const SelfExcitation& found) {
     sentence +=
         unstable.empty() ? "." : fmt::format(", and feeds an oscillation under {}.", unstable);
   }
+  sentence += ' ' + report::missed_windows_text(found.windows.back().high_N);
   return {"Self-excitation", sentence};
 }
 
 output::Section self_excitation_section(const DesignStudy& study) {
   output::Section section;
   section.title = "Self-excited oscillation";
-  section.text =
+  section.text = fmt::format(
       "The friction of this contact falls with the velocity, and can feed an oscillation of the mass "
       "on its spring. The steady motion under a constant drive is stable where its Floquet "
       "multipliers over a carrier period are below 1. \"By averaging\": the mean friction under a "
       "sinusoidal vibration, as a force that changes with the sliding velocity, damps a slow natural "
-      "mode. The command sonoglide stability SCENE.toml --self-excited draws the map over speed and drive.";
+      "mode. {} The command sonoglide stability SCENE.toml --self-excited draws the map over speed and "
+      "drive.",
+      report::missed_windows_text(study.self_excitation.front().windows.back().high_N));
   output::Table table{"", {"Sliding", "Found by", "From", "To", "Steady sliding"}, {}};
   const auto add = [&](const SelfExcitation& each, const char* by,
                        const std::vector<steady::DriveWindow>& windows) {

@@ -11,6 +11,7 @@
 #include "host_sim/output/number.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/output/program.hpp"
+#include "host_sim/report/self_excitation.hpp"
 #include "host_sim/scene/names.hpp"
 #include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/self_excited/study.hpp"
@@ -215,9 +216,10 @@ output::Page page(const Study& study) {
   map.charts = {map_chart(study)};
   output::Section own;
   own.title = "Windows of the drive at the scene's speed";
-  own.text =
+  own.text = fmt::format(
       "In a stable window the drive quenches the oscillation; in another it excites it, also where "
-      "less drive would not. self_excited.csv has the map.";
+      "less drive would not. {} self_excited.csv has the map, in steps of {}.",
+      report::missed_windows_text(study.task.most_N), output::quantity(study.forces_N[1], "N"));
   own.charts = {growth_chart(study)};
   own.tables = {windows_table(study, "By the steady motion", study.windows),
                 windows_table(study, "By averaging", study.averaged_windows)};
@@ -233,7 +235,7 @@ std::string text(const Study& study) {
                          output::quantity(each.low_N * per_N(study), "m/s"),
                          output::quantity(each.high_N * per_N(study), "m/s"), words(each.fate));
   }
-  return lines;
+  return lines + report::missed_windows_text(study.task.most_N) + '\n';
 }
 
 }  // namespace

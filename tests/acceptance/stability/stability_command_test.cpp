@@ -143,6 +143,24 @@ TEST(SelfExcited, FindsTheWindowsOfTheExample) {
   EXPECT_NE(folder.read(out + "report.html").find("Floquet multiplier"), std::string::npos);
 }
 
+TEST(SelfExcited, AStrongDriveHidesNoWindowAndTheNarrowestIsTold) {
+  const ScratchFolder folder;
+  const Outcome found =
+      folder.run("stability " SONOGLIDE_SCENES
+                 "/squeal.toml --self-excited --set drive.max_force_amplitude_N=4e5");
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_NE(
+      found.out.find("drive  1.848 kN to  4.129 kN, vibration 147.1 mm/s to 328.6 mm/s: it is "
+                     "unstable"),
+      std::string::npos)
+      << found.out;
+  const std::string narrowest =
+      "A window narrower than 10 % of its force and than 4.167 kN may be missed, unless averaging has "
+      "it too.";
+  EXPECT_NE(found.out.find(narrowest), std::string::npos) << found.out;
+  EXPECT_NE(folder.read("out/squeal_self_excited/report.html").find(narrowest), std::string::npos);
+}
+
 TEST(SelfExcited, RefusesWhatHasNoSteadySliding) {
   const ScratchFolder folder;
   const auto refusal = [&](const std::string& set) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
@@ -80,6 +81,49 @@ TEST(DriveWindowsTest, AreThoseOfAveragingOnASlowMode) {
   ASSERT_EQ(averaged.size(), 4U);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     EXPECT_NEAR(averaged[i].high_N / per_m_per_s, edges[i], 2e-5 * edges[i]);
+  }
+}
+
+/// How much more the drive can than it takes hides no window.
+TEST(DriveWindowsTest, AreTheSameUnderAnyLimit) {
+  const scene::Scene scene = published_belt();
+  const double per_m_per_s = force_N(scene, 1.0);
+  const std::vector<double> edges = {belt_m_per_s, 0.147074864502479, 0.32857223524365475};
+  for (const double most_m_per_s : {1.0, 80.0}) {
+    SCOPED_TRACE(most_m_per_s);
+    const auto windows = drive_windows(scene, belt_m_per_s, most_m_per_s * per_m_per_s);
+    const auto averaged = averaged_drive_windows(scene, belt_m_per_s, most_m_per_s * per_m_per_s);
+    ASSERT_EQ(windows.size(), 4U);
+    ASSERT_EQ(averaged.size(), 4U);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      EXPECT_NEAR(windows[i].high_N / per_m_per_s, edges[i], 0.005 * edges[i]);
+      EXPECT_NEAR(averaged[i].high_N / per_m_per_s, edges[i], 2e-5 * edges[i]);
+    }
+  }
+}
+
+/// A damper that leaves of the falling part of the curve a window of 1.6 % of its force, narrower than the
+/// steps of the scan.
+TEST(DriveWindowsTest, ANarrowWindowOfTheAverageIsFound) {
+  scene::Scene scene = published_belt();
+  scene.drive->frequency_Hz = 200.0;
+  const auto slope_at = [](double v) { return slope_N_s_per_m(published, belt_m_per_s, v); };
+  double least_m_per_s = 0.1;
+  for (double v = least_m_per_s; v < 0.5; v += 1e-5) {
+    least_m_per_s = slope_at(v) < slope_at(least_m_per_s) ? v : least_m_per_s;
+  }
+  scene.plant.damping_N_s_per_m = -slope_at(1.008 * least_m_per_s);
+  ASSERT_GT(scene.plant.damping_N_s_per_m, 0.0);
+  const double least_N = force_N(scene, least_m_per_s);
+  for (const double most : {2.0, 4.4, 300.0, 1e6}) {
+    SCOPED_TRACE(most);
+    const auto averaged = averaged_drive_windows(scene, belt_m_per_s, most * least_N);
+    const auto found = std::find_if(averaged.begin(), averaged.end(), [&](const DriveWindow& each) {
+      return each.low_N < least_N && least_N < each.high_N;
+    });
+    ASSERT_NE(found, averaged.end());
+    EXPECT_EQ(found->fate, Fate::grows);
+    EXPECT_NEAR((found->high_N - found->low_N) / least_N, 0.016, 0.003);
   }
 }
 
