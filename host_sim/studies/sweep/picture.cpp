@@ -110,23 +110,18 @@ output::Chart heat_map(const Plan& plan, const std::vector<PointResult>& rows, s
 constexpr const char* key_above =
     "set grid lc rgb '#d8d8d8'\nset key outside top center horizontal";
 
-/// The friction ratio over window and whole run against the key; in closed loop the steady error
-/// with the ripple on either side. Failed points are grey lines from bottom to top. Other axes have
-/// one value.
+/// The sweep's subject() against the key: a steady error with the ripple on either side, the friction ratio
+/// of the window with that of the whole run, any other alone. Failed points are grey lines from bottom to
+/// top. Other axes have one value.
 /// @param axis  with more than one value
 output::Chart curve(const Plan& plan, const std::vector<PointResult>& rows, std::size_t axis) {
   const Subject series = subject(plan);
   const Axis& along = plan.grid().axes()[axis];
   output::Curve failed{"failed", {}, output::Line::full_height, {}, {grey}};
   std::vector<double> x;
-  std::vector<double> subjects;
-  std::vector<double> others;
   for (std::size_t point = 0; point < rows.size(); ++point) {
-    const PointResult& row = rows[point];
     x.push_back(along.position(plan.grid().index(point, axis)));
-    subjects.push_back(row.*series.figure);
-    others.push_back(plan.closed_loop() ? row.ripple : row.friction_ratio_whole_run);
-    if (!row.ok()) {
+    if (!rows[point].ok()) {
       failed.x.push_back(x.back());
       failed.y.push_back(1.0);
     }
@@ -135,25 +130,34 @@ output::Chart curve(const Plan& plan, const std::vector<PointResult>& rows, std:
   if (!failed.y.empty()) {
     chart.curves.push_back(std::move(failed));
   }
-  if (plan.closed_loop()) {
+  const auto column = [&](double PointResult::*figure) {
+    std::vector<double> values;
+    for (const PointResult& row : rows) {
+      values.push_back(row.*figure);
+    }
+    return values;
+  };
+  // Values side by side are not joined.
+  const bool apart = along.categorical();
+  const auto add = [&](const std::string& label, double PointResult::*figure, const char* colour) {
+    chart.curves.push_back({label,
+                            column(figure),
+                            apart ? output::Line::dots : output::Line::joined,
+                            {},
+                            {colour, apart ? 1.0 : 2.0, 1, 7, apart ? 1.2 : 0.4}});
+  };
+  if (series.figure == &PointResult::steady_error) {
     chart.curves.push_back({"steady error ± ripple",
-                            subjects,
+                            column(series.figure),
                             output::Line::joined,
                             {},
                             {"#3b528b", 1.5, 1, 7, 0.5},
-                            others});
+                            column(&PointResult::ripple)});
+  } else if (series.figure == &PointResult::friction_ratio_window) {
+    add("whole run", &PointResult::friction_ratio_whole_run, "#9ecae1");
+    add("window", series.figure, "#3b528b");
   } else {
-    // Values side by side are not joined.
-    const bool apart = along.categorical();
-    const auto add = [&](const char* label, std::vector<double> y, const char* colour) {
-      chart.curves.push_back({label,
-                              std::move(y),
-                              apart ? output::Line::dots : output::Line::joined,
-                              {},
-                              {colour, apart ? 1.0 : 2.0, 1, 7, apart ? 1.2 : 0.4}});
-    };
-    add("whole run", others, "#9ecae1");
-    add("window", subjects, "#3b528b");
+    add(series.title, series.figure, "#3b528b");
   }
   chart.look = fmt::format("{}\n", key_above);
   return chart;

@@ -29,8 +29,9 @@ std::vector<PointResult> rows(std::size_t count) {
 }
 
 std::optional<std::string> printed(const std::vector<std::string>& vary,
-                                   const std::vector<PointResult>& series) {
-  const ScratchScene scratch(open_loop);
+                                   const std::vector<PointResult>& series,
+                                   const std::string& scene = open_loop) {
+  const ScratchScene scratch(scene);
   const auto sheet = picture(Plan(scene_file::read_source(scratch.file()), {}, vary), series);
   return sheet ? std::optional(output::print(*sheet)) : std::nullopt;
 }
@@ -62,6 +63,55 @@ TEST(PictureTest, OneKeyIsACurve) {
   ASSERT_TRUE(svg.has_value());
   EXPECT_NE(svg->find("whole run"), std::string::npos);
   EXPECT_NE(svg->find(">failed<"), std::string::npos);
+}
+
+std::string with(std::string scene, const std::string& part, const std::string& other) {
+  const std::size_t at = scene.find(part);
+  EXPECT_NE(at, std::string::npos) << part;
+  return scene.replace(at, part.size(), other);
+}
+
+// Beside a displacement or a texture there is no second figure of the same unit.
+TEST(PictureTest, OfALoadItIsItsDisplacementAlone) {
+  std::vector<PointResult> series = rows(3);
+  for (PointResult& row : series) {
+    row.load_final_displacement_m = 2.0 * row.friction_ratio_window;
+  }
+  const std::string loaded = with(open_loop, "[sliding]\nvelocity_m_per_s = 0.0267",
+                                  "[load]\nmass_kg = 0.01\ninitial_velocity_m_per_s = 0.05");
+  const auto svg = printed({"drive.force_amplitude_N=100:300:3"}, series, loaded);
+  ASSERT_TRUE(svg.has_value());
+  EXPECT_NE(svg->find("Displacement of the load at the end [m]"), std::string::npos);
+  EXPECT_NE(svg->find(">Displacement of the load<"), std::string::npos);
+  for (const char* other : {">window<", ">whole run<", "ripple"}) {
+    EXPECT_EQ(svg->find(other), std::string::npos) << other;
+  }
+}
+
+TEST(PictureTest, OfATextureItIsItsAmplitudeAlone) {
+  std::vector<PointResult> series = rows(3);
+  for (PointResult& row : series) {
+    row.texture_amplitude_ratio = 1.0;
+  }
+  const std::string texture = with(closed_loop, "target_friction_ratio = [[0.0, 0.4]]",
+                                   "target_texture = { period_m = 1e-4, ratio = [0.4, 0.6] }");
+  const auto svg = printed({"drive.max_force_amplitude_N=1000:2000:3"}, series, texture);
+  ASSERT_TRUE(svg.has_value());
+  EXPECT_NE(svg->find(">Amplitude of the texture<"), std::string::npos);
+  for (const char* other : {">window<", ">whole run<", "steady error", "ripple"}) {
+    EXPECT_EQ(svg->find(other), std::string::npos) << other;
+  }
+}
+
+TEST(PictureTest, OfATargetItIsTheSteadyErrorWithItsRipple) {
+  std::vector<PointResult> series = rows(3);
+  for (PointResult& row : series) {
+    row.steady_error = 0.1;
+    row.ripple = 0.01;
+  }
+  const auto svg = printed({"drive.max_force_amplitude_N=1000:2000:3"}, series, closed_loop);
+  ASSERT_TRUE(svg.has_value());
+  EXPECT_NE(svg->find("steady error ± ripple"), std::string::npos);
 }
 
 TEST(PictureTest, WordsStandSideBySide) {
