@@ -19,6 +19,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/process/serial_port.hpp"
+#include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/report/self_excitation.hpp"
 
@@ -73,6 +74,7 @@ void pil(const PilOptions& options) {
   if (!options.quiet) {
     print_design_notes(experiment.design);
     print_notes(report::self_excitation_notes(scene));
+    print_notes(report::target_notes(scene));
     announce_long_work(loop::expected_steps(scene));
   }
   const std::filesystem::path out = output_folder(

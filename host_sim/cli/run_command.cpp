@@ -16,6 +16,7 @@
 #include "host_sim/process/printable.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
+#include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/run_report.hpp"
 #include "host_sim/report/self_excitation.hpp"
 
@@ -73,6 +74,7 @@ void run(const RunOptions& options) {
   if (!options.quiet) {
     print_design_notes(experiment.design);
     print_notes(report::self_excitation_notes(scene));
+    print_notes(report::target_notes(scene));
     announce_long_work(loop::expected_steps(scene));
   }
   const bool written = !options.json || !options.out.empty();

@@ -23,6 +23,10 @@ void Course::take(const loop::Period& period) {
                               period.drive_amplitude_N, period.begin_velocity_m_per_s,
                               period.bias_N, period.begin_distance_m});
   largest_bias_N_ = std::max(largest_bias_N_, std::abs(period.bias_N));
+  fastest_m_per_s_ = std::max({fastest_m_per_s_, std::abs(period.begin_velocity_m_per_s),
+                               std::abs(period.end_velocity_m_per_s)});
+  nearest_m_ = std::min({nearest_m_, period.begin_distance_m, period.end_distance_m});
+  farthest_m_ = std::max({farthest_m_, period.begin_distance_m, period.end_distance_m});
   ++periods_in_[static_cast<std::size_t>(period.limit)];
   if (period.open_fraction > 0.0) {
     ++periods_in_[static_cast<std::size_t>(control::Limit::contact_lost)];

@@ -44,12 +44,19 @@ class Course final : public loop::PeriodSink {
 
   /// Magnitude.
   double largest_bias_N() const { return largest_bias_N_; }
+  /// Of the sliding, where carrier periods begin and end.
+  double fastest_m_per_s() const { return fastest_m_per_s_; }
+  /// From the least to the largest displacement of the sliding, likewise.
+  double travel_m() const { return farthest_m_ - nearest_m_; }
 
  private:
   static constexpr std::size_t most_points = 20000;
 
   Curve curve_{most_points};
   double largest_bias_N_ = 0.0;
+  double fastest_m_per_s_ = 0.0;
+  double nearest_m_ = 0.0;
+  double farthest_m_ = 0.0;
   std::array<std::uint64_t, control::limit_count> periods_in_{};
 };
 

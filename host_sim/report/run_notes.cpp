@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/report/step_metrics.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -43,6 +44,34 @@ std::vector<std::string> run_notes(const scene::Scene& scene, const loop::RunRes
   std::vector<std::string> notes;
   append_current_excess(scene, result, notes);
   append_contact_loss(scene, result, notes);
+  return notes;
+}
+
+std::vector<std::string> target_notes(const scene::Scene& scene) {
+  if (!scene.controller || scene.controller->texture) {
+    return {};
+  }
+  const TargetUnit unit = target_unit(scene);
+  const char* const newtons = unit.is_force() ? " N" : "";
+  const double band = scene.run.settling_band * unit.size;
+  std::vector<std::string> notes;
+  for (const scene::TargetStep& step : scene.controller->targets()) {
+    const std::string target =
+        fmt::format("The target {:.6g}{} at {:.6g} s", step.value, newtons, step.time_s);
+    if (!(step.time_s < scene.run.duration_s)) {
+      notes.push_back(
+          fmt::format("{}{} never begins: the run ends at {:.6g} s.", target,
+                      &step == &scene.controller->targets().back() ? "" : ", like those after it,",
+                      scene.run.duration_s));
+      break;
+    }
+    if (step.value <= band) {
+      notes.push_back(fmt::format(
+          "{} is within the settling band of {:.6g}{} about 0: that it settles does not tell it from "
+          "no friction at all. A smaller run.settling_band does.",
+          target, band, newtons));
+    }
+  }
   return notes;
 }
 

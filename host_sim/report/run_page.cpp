@@ -26,8 +26,9 @@ std::string lead(const scene::Scene& scene, const loop::RunResult& result) {
   return text;
 }
 
-output::Section figures_section(const scene::Scene& scene, const loop::RunResult& result) {
-  output::Section section{"Figures", "", {}, {run_table(scene, result)}};
+output::Section figures_section(const scene::Scene& scene, const loop::RunResult& result,
+                                const RunFindings& findings) {
+  output::Section section{"Figures", "", {}, {run_table(scene, result, findings)}};
   if (result.electrical) {
     section.tables.push_back(electrical_table(*result.electrical));
   }
@@ -76,7 +77,7 @@ output::Page run_page(const configure::Experiment& experiment, const loop::RunRe
     page.sections.push_back(close_up_section(scene, findings.close_ups()[i], i));
   }
   page.sections.push_back(ending_section(scene, findings.ending()));
-  page.sections.push_back(figures_section(scene, result));
+  page.sections.push_back(figures_section(scene, result, findings));
   return page;
 }
 

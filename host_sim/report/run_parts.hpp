@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
 std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunResult& result,
                                      const RunFindings& findings);
 
+/// Of a load that is faster than any velocity of a scene may be.
+std::vector<std::string> load_notes(const scene::Scene& scene, const RunFindings& findings);
+/// Why there is no friction ratio where a load that no drive shakes has stayed within the elastic length of
+/// its contact, Fc/Kt, so that nothing slides; absent in any other run.
+std::optional<std::string> stick_text(const scene::Scene& scene, const RunFindings& findings);
+
 /// Where the controller has learnt its friction force from one that was not steady.
 std::vector<std::string> calibration_notes(const RunFindings& findings);
 
@@ -39,7 +46,8 @@ output::Table step_table(const scene::Scene& scene, const RunFindings& findings)
 /// What a controller has learnt of its contact while driving.
 output::Table learnt_friction_table(const loop::FrictionBelief& belief);
 output::Table vibration_table(const RunFindings& findings);
-output::Table run_table(const scene::Scene& scene, const loop::RunResult& result);
+output::Table run_table(const scene::Scene& scene, const loop::RunResult& result,
+                        const RunFindings& findings);
 output::Table electrical_table(const loop::ElectricalBalance& balance);
 output::Table signal_table(const loop::ControlRecord& control);
 

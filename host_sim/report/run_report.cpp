@@ -153,10 +153,12 @@ ordered_json signal(const numeric::SignalRecord& record) {
           {"saturations", record.saturations}};
 }
 
-std::vector<std::string> notes(const scene::Scene& scene, const loop::RunResult& result) {
+std::vector<std::string> notes(const scene::Scene& scene, const loop::RunResult& result,
+                               const RunFindings& findings) {
   std::vector<std::string> all = configure::design_notes(result.control->design);
   for (std::vector<std::string>& more :
-       std::array{self_excitation_notes(scene), run_notes(scene, result)}) {
+       std::array{self_excitation_notes(scene), target_notes(scene), run_notes(scene, result),
+                  load_notes(scene, findings)}) {
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }
   return all;
@@ -202,7 +204,7 @@ ordered_json control(const scene::Scene& scene, const loop::RunResult& result,
       {"speed_floor_m_per_s", design.speed_floor * design.scales.velocity_m_per_s},
       {"integral_gain", design.senses_force ? design.integral_gain : 0.0},
       {"signals", signals},
-      {"notes", notes(scene, result)}};
+      {"notes", notes(scene, result, findings)}};
   if (const TextureMeter* texture = findings.texture()) {
     json["texture_periods"] = texture->passes();
     json["texture"] = texture_json(*texture, target);
@@ -277,9 +279,12 @@ ordered_json summary(const configure::Experiment& experiment, const loop::RunRes
                    {"displacement_m", result.final_state.displacement_m},
                    {"velocity_m_per_s", result.final_state.velocity_m_per_s},
                    {"friction_force_N", result.final_state.friction_force_N}};
+  const auto ratio = [&](double of) {
+    return stick_text(scene, findings) ? ordered_json(nullptr) : output::json_number(of);
+  };
   json["friction_ratio"] = {
-      {"whole_run", output::json_number(loop::power_ratios(scene, result.whole).friction_ratio)},
-      {"window", output::json_number(window.friction_ratio)}};
+      {"whole_run", ratio(loop::power_ratios(scene, result.whole).friction_ratio)},
+      {"window", ratio(window.friction_ratio)}};
   json["power"] = power(window, scene.load.has_value());
   if (scene.load) {
     json["load"] = load(result);
@@ -351,6 +356,14 @@ void RunReport::finish(const loop::RunResult& result) {
 
 namespace {
 
+std::string warning_lines(const std::vector<std::string>& warnings) {
+  std::string lines;
+  for (const std::string& each : warnings) {
+    lines += fmt::format("WARNING: {}\n", each);
+  }
+  return lines;
+}
+
 std::string settling(const std::optional<double>& time_s) {
   return time_s ? fmt::format("{:.1f} us", *time_s * 1e6) : std::string("never");
 }
@@ -402,11 +415,10 @@ std::string step_lines(const scene::Scene& scene, const loop::RunResult& result,
         "from there\n",
         calibration_s * 1e3);
   }
-  for (const std::string& note : calibration_notes(findings)) {
-    text += fmt::format("WARNING: {}\n", note);
-  }
+  text += warning_lines(calibration_notes(findings));
   if (const TextureMeter* texture = findings.texture()) {
-    return text + texture_lines(scene, *texture) + learning_lines(result, findings);
+    return text + texture_lines(scene, *texture) +
+           warning_lines(texture_warnings(scene, *texture)) + learning_lines(result, findings);
   }
   const TargetUnit target = target_unit(scene);
   const int target_width = target.is_force() ? 10 : 7;
@@ -436,17 +448,13 @@ std::string electrical_line(const loop::RunResult& result) {
                      figures.apparent_power_VA, figure("{:.3g}", figures.power_factor));
 }
 
-std::string note_lines(const scene::Scene& scene, const loop::RunResult& result) {
-  std::string lines;
-  for (const std::string& note : run_notes(scene, result)) {
-    lines += fmt::format("WARNING: {}\n", note);
-  }
-  return lines;
-}
-
-std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result) {
+std::string ratio_line(const scene::Scene& scene, const loop::RunResult& result,
+                       const RunFindings& findings) {
   if (scene.friction.largest_limit_N() == 0.0) {
     return "no friction, so no friction ratio\n";
+  }
+  if (const auto sticks = stick_text(scene, findings)) {
+    return *sticks + '\n';
   }
   return fmt::format("friction ratio {} over the whole run, {} from {:.6g} s on\n",
                      figure("{:.6f}", loop::power_ratios(scene, result.whole).friction_ratio),
@@ -465,9 +473,11 @@ std::string load_line(const scene::Scene& scene, const loop::RunResult& result) 
 
 std::string run_text(const scene::Scene& scene, const loop::RunResult& result,
                      const RunFindings& findings) {
-  const std::string lines =
-      (scene.controller ? step_lines(scene, result, findings) : ratio_line(scene, result)) +
-      load_line(scene, result) + electrical_line(result) + note_lines(scene, result);
+  const std::string lines = (scene.controller ? step_lines(scene, result, findings)
+                                              : ratio_line(scene, result, findings)) +
+                            load_line(scene, result) + electrical_line(result) +
+                            warning_lines(run_notes(scene, result)) +
+                            warning_lines(load_notes(scene, findings));
   return fmt::format("{}{}{:.6g} ms simulated with {} in {:.3g} ms, {:.3g} times real time\n",
                      lines, result.image ? image_lines(*result.image) : "",
                      result.final_time_s * 1e3, scene::name_of(scene.solver.method),

@@ -70,7 +70,8 @@ output::Table vibration_table(const RunFindings& findings) {
   return table;
 }
 
-output::Table run_table(const scene::Scene& scene, const loop::RunResult& result) {
+output::Table run_table(const scene::Scene& scene, const loop::RunResult& result,
+                        const RunFindings& findings) {
   const loop::PowerRatios window = loop::power_ratios(scene, result.window);
   output::Table table{"Run", {}, {}};
   const auto row = [&table](const char* name, std::string value) {
@@ -82,9 +83,12 @@ output::Table run_table(const scene::Scene& scene, const loop::RunResult& result
                                   result.window.duration_s));
   }
   if (scene.friction.largest_limit_N() > 0.0) {
-    row("Friction ratio, whole run",
-        figure("{:.9f}", loop::power_ratios(scene, result.whole).friction_ratio));
-    row("Friction ratio, window", figure("{:.9f}", window.friction_ratio));
+    const bool sticks = stick_text(scene, findings).has_value();
+    const auto ratio = [&](double of) {
+      return sticks ? std::string("none: the contact sticks") : figure("{:.9f}", of);
+    };
+    row("Friction ratio, whole run", ratio(loop::power_ratios(scene, result.whole).friction_ratio));
+    row("Friction ratio, window", ratio(window.friction_ratio));
     row("Power of the pull over that of the friction limit, window",
         figure("{:.6f}", window.pull_ratio));
     row("Power dissipation ratio, window", figure("{:.6f}", window.dissipation_ratio));

@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
+#include "host_sim/output/number.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/scene_file/key.hpp"
 
 namespace sonoglide::report {
 namespace {
@@ -98,6 +103,34 @@ std::vector<std::string> calibration_notes(const RunFindings& findings) {
       seen.lowest, seen.highest)};
 }
 
+std::vector<std::string> load_notes(const scene::Scene& scene, const RunFindings& findings) {
+  const double fastest_m_per_s = findings.course().fastest_m_per_s();
+  if (!scene.load || fastest_m_per_s <= scene_file::largest_speed_m_per_s) {
+    return {};
+  }
+  return {fmt::format(
+      "The load reached {:.4g} m/s. No velocity of a scene may be beyond {:g} m/s, and the figures of "
+      "a faster one are not to be trusted.",
+      fastest_m_per_s, scene_file::largest_speed_m_per_s)};
+}
+
+std::optional<std::string> stick_text(const scene::Scene& scene, const RunFindings& findings) {
+  const bool shaken = scene.controller || (scene.drive && scene.drive_force_N() != 0.0);
+  if (!scene.load || shaken || !scene::is_elastic(scene.friction.law) ||
+      scene.friction.has_profile()) {
+    return std::nullopt;
+  }
+  const double travel_m = findings.course().travel_m();
+  const double elastic_m = scene.friction.limit_N() / scene.friction.contact_stiffness_N_per_m;
+  if (!(travel_m < elastic_m)) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "The contact sticks: the load moves within {}, and the contact yields by {} before it slides. "
+      "There is no friction ratio.",
+      output::quantity(travel_m, "m"), output::quantity(elastic_m, "m"));
+}
+
 std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::RunResult& result,
                                       const RunFindings& findings) {
   std::vector<std::string> all;
@@ -106,8 +139,9 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
         "Sign convention as printed in the paper (V = Vt - x'): friction pumps energy into the "
         "vibration. The dissipative convention is V = Vt + x'.");
   }
-  for (std::string& note : run_notes(scene, result)) {
-    all.push_back(std::move(note));
+  for (std::vector<std::string>& notes :
+       std::array{target_notes(scene), run_notes(scene, result), load_notes(scene, findings)}) {
+    std::move(notes.begin(), notes.end(), std::back_inserter(all));
   }
   if (!result.control) {
     return all;
@@ -151,6 +185,9 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
 std::vector<std::string> run_remarks(const scene::Scene& scene, const loop::RunResult& result,
                                      const RunFindings& findings) {
   std::vector<std::string> all;
+  if (const auto sticks = stick_text(scene, findings)) {
+    all.push_back(*sticks);
+  }
   if (!result.control) {
     return all;
   }

@@ -128,6 +128,78 @@ TEST(RunNotesTest, ABiasIsToldWithWhatItTakesAway) {
             std::string::npos);
 }
 
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(RunNotesTest, ATextureThatIsMissedIsToldOnTheTerminalToo) {
+  const Told fine =
+      run("fingertip",
+          "--set run.duration_s=0.02 "
+          "--set 'controller.target_texture={ period_m = 3.5e-5, ratio = [0.6, 0.5] }'");
+  for (const std::string& text : {fine.terminal, fine.page}) {
+    EXPECT_TRUE(has(text, "first harmonic is 0.7")) << fine.terminal;
+    EXPECT_TRUE(has(text, "more than 5 % or 20 degrees off")) << fine.terminal;
+  }
+  const Told longest =
+      run("fingertip",
+          "--set run.duration_s=0.005 "
+          "--set 'controller.target_texture={ period_m = 1.0, ratio = [0.6, 0.5] }'");
+  EXPECT_TRUE(has(longest.terminal, "WARNING: No whole period of the texture is passed"))
+      << longest.terminal;
+  EXPECT_TRUE(has(longest.terminal, "A period of 1 m takes a longer run.")) << longest.terminal;
+}
+
+TEST(RunNotesTest, ATargetThatARunCannotShowIsTold) {
+  const std::string late = "The target 50 N at 0.5 s never begins: the run ends at 0.004 s.";
+  const std::string faint = "The target 1e-06 N at 0 s is within the settling band of 5 N about 0";
+  const Told force = run("belt_force",
+                         "--set run.duration_s=4e-3 "
+                         "--set 'controller.target_friction_force_N=[[0.0, 1e-6], [0.5, 50]]'");
+  for (const std::string& text :
+       {force.before, force.page, force.summary["control"]["notes"].dump()}) {
+    EXPECT_TRUE(has(text, late)) << text.substr(0, 2000);
+    EXPECT_TRUE(has(text, faint)) << text.substr(0, 2000);
+  }
+  const Told ratio = run(
+      "target_step", "--set 'controller.target_friction_ratio=[[0.0, 0.4], [1.0, 0.5], [2, 0.6]]'");
+  EXPECT_TRUE(has(ratio.before, "The target 0.5 at 1 s, like those after it, never begins"))
+      << ratio.before;
+  EXPECT_FALSE(has(ratio.before, "settling band")) << ratio.before;
+  EXPECT_FALSE(has(run("target_step", "").before, "never begins"));
+}
+
+TEST(RunNotesTest, ALoadFasterThanAnyVelocityOfASceneIsNamed) {
+  const std::string told =
+      "The load reached 1.5e+06 m/s. No velocity of a scene may be beyond 1e+06 m/s";
+  const std::string coulomb =
+      "--set drive.voltage_amplitude_V=0 --set friction.law=coulomb "
+      "--set friction.contact_stiffness_N_per_m= --set run.duration_s=0.15 ";
+  const Told fast = run("seat_rail", coulomb + "--set 'load.force_profile_N=[[0.0, 1e9]]'");
+  EXPECT_TRUE(has(fast.terminal, "WARNING: " + told)) << fast.terminal;
+  EXPECT_TRUE(has(fast.page, told));
+  const Told slow = run("seat_rail", coulomb + "--set 'load.force_profile_N=[[0.0, 6e8]]'");
+  EXPECT_FALSE(has(slow.terminal, "The load reached")) << slow.terminal;
+}
+
+// The example says it: without vibration the seat yields by 2 um of 5.
+TEST(RunNotesTest, ALoadThatSticksHasNoFrictionRatio) {
+  const std::string told = "The contact sticks: the load moves within ";
+  const Told stuck = run("seat_rail", "--set drive.voltage_amplitude_V=0");
+  EXPECT_TRUE(has(stuck.terminal, told)) << stuck.terminal;
+  EXPECT_TRUE(has(stuck.terminal, "yields by 5 um before it slides")) << stuck.terminal;
+  EXPECT_FALSE(has(stuck.terminal, "friction ratio 0")) << stuck.terminal;
+  EXPECT_TRUE(has(stuck.page, told));
+  EXPECT_TRUE(has(stuck.page, "none: the contact sticks"));
+  EXPECT_TRUE(stuck.summary["friction_ratio"]["window"].is_null());
+  // Pushed harder than its friction it slides.
+  const Told pushed = run("seat_rail",
+                          "--set drive.voltage_amplitude_V=0 --set run.duration_s=0.3 "
+                          "--set 'load.force_profile_N=[[0.1, 0.0], [0.2, 300.0]]'");
+  EXPECT_FALSE(has(pushed.terminal, told)) << pushed.terminal;
+  EXPECT_GT(pushed.summary["friction_ratio"]["whole_run"].get<double>(), 0.1);
+}
+
 /// How often a part is in a text.
 int count(const std::string& text, const std::string& part) {
   int found = 0;
