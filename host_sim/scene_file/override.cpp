@@ -88,10 +88,12 @@ toml::table parse_value(const std::string& value, const std::string& key, const 
     holder = parse_toml("value = " + value, place.file);
   } catch (const SceneError&) {
     if (!is_bare_word(value)) {
-      throw SceneError(place, key,
-                       fmt::format("{} is no TOML value; allowed: a number with a decimal point, "
-                                   "true, false, a list in [ ], a text in \" \" or a bare word",
-                                   in_quotes(value)));
+      throw SceneError(
+          place, key,
+          fmt::format("{} is no TOML value; allowed: a number with a decimal point, "
+                      "true, false, a list in [ ], a table in {{ }} that has each key once, "
+                      "a text in \" \" or a bare word",
+                      in_quotes(value)));
     }
     holder.insert("value", value);
   }

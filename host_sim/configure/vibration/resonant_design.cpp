@@ -170,7 +170,8 @@ double room_beside(double other, double both) {
 }
 
 /// A target whose vibration has no direction would never be driven.
-void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
+/// @param full_m_per_s  at full drive
+void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s, double full_m_per_s,
                              double full_scale_m_per_s, const ResonantDesign& design) {
   const double audible_m_per_s = design.audible * full_scale_m_per_s;
   if (audible_m_per_s < lowest_m_per_s) {
@@ -178,6 +179,18 @@ void require_audible_targets(const scene::Scene& scene, double lowest_m_per_s,
   }
   const double allowed = lowest_m_per_s / audible_m_per_s;
   if (design.audible > least_audible * design.rate) {
+    constexpr double rounding = 1e-9;
+    const bool wants_all = lowest_m_per_s >= (1.0 - rounding) * full_m_per_s;
+    if (wants_all) {
+      const double most_V = scene.drive->max_voltage_amplitude_V;
+      throw ConfigurationError(
+          "drive.max_voltage_amplitude_V",
+          fmt::format(
+              "{:g} V give a vibration of {:.3g} m/s at most, and the noise and the converter of "
+              "the vibration sensor hide one below {:.3g} m/s; allowed: above {} V",
+              most_V, full_m_per_s, audible_m_per_s,
+              scene::at_least(most_V * audible_m_per_s / full_m_per_s, 4)));
+    }
     const double noise_m_per_s = scene.sensor.vibration_noise_m_per_s;
     const double rounding_m_per_s = vibration_rounding_m_per_s(scene.sensor, full_scale_m_per_s);
     const double most_m_per_s = lowest_m_per_s / noises_of_audible;
@@ -262,7 +275,8 @@ ResonantDesign design_resonance(const scene::Scene& scene, const NominalPlant& p
   design.scales = scene.sensor.vibration == scene::VibrationSensor::motional_current;
   design_word(scene, plant, design);
   design_estimate(design);
-  require_audible_targets(scene, targets.lowest_driven_m_per_s, full_scale_m_per_s, design);
+  require_audible_targets(scene, targets.lowest_driven_m_per_s, full_m_per_s, full_scale_m_per_s,
+                          design);
   design_hold(design);
   design_current(scene, plant, full_scale_m_per_s, targets.lowest_m_per_s, design);
   return design;

@@ -169,10 +169,13 @@ Advice accuracy(const DesignStudy& study, const std::vector<DesignPoint>& points
   });
   const double total = total_change(worst);
   const double band = study.task.scene.run.settling_band;
+  const double ratio = worst.requirement.ratio;
   std::string text = fmt::format(
-      "Without feedback, an error of 1 % in every parameter could shift ratio {:g} at {} by "
-      "{:.3f}, {} the settling band of {:g}.",
-      worst.requirement.ratio, speed(worst.requirement.sliding_m_per_s), total,
+      "Without feedback, an error of 1 % in every parameter could shift ratio {:g} at {} {}, {} the "
+      "settling band of {:g}.",
+      ratio, speed(worst.requirement.sliding_m_per_s),
+      total < std::max(ratio, 1.0 - ratio) ? fmt::format("by {:.3f}", total)
+                                           : std::string("as far as it can move, to 0 or 1"),
       total > band ? "more than" : "within", band);
   if (by_size.size() > 1) {
     text += fmt::format(" It is most sensitive to {} ({:.4f} for 1 %) and {} ({:.4f}).",

@@ -8,6 +8,7 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/nominal_plant.hpp"
+#include "host_sim/scene/bound.hpp"
 
 namespace sonoglide::design {
 namespace {
@@ -53,12 +54,17 @@ void require_steady_vibration(const scene::Scene& scene) {
 void require_some_ratio(const scene::Scene& scene, const std::vector<double>& ratios) {
   const bool some =
       std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return is_allowed(ratio); });
-  if (!some) {
-    throw configure::ConfigurationError(
-        fmt::format("controller.{}", scene.controller->target_key()),
-        fmt::format("no target to design for; allowed: at least one of {} to below 1",
-                    least_ratio));
+  if (some) {
+    return;
   }
+  const double friction_N = configure::nominal_plant(scene).friction_N;
+  throw configure::ConfigurationError(
+      fmt::format("controller.{}", scene.controller->target_key()),
+      fmt::format("no target to design for; allowed: at least one of {}",
+                  scene.controller->holds_force()
+                      ? fmt::format("{} N to below {} N", scene::at_least(least_ratio * friction_N),
+                                    scene::at_most(friction_N))
+                      : allowed_ratios()));
 }
 
 SpeedRange speeds_of(const scene::Scene& scene, double floor_m_per_s) {

@@ -367,6 +367,10 @@ const std::vector<BrokenScene> broken_scenes = {
      "[sensor]\nvibration_noise_m_per_s = 0.02",
      "24:27: sensor.vibration_noise_m_per_s: noise and converter hide a vibration below 0.32 m/s, "
      "and a target needs 0.0732 m/s; allowed: at most 0.00457 m/s, or a lower target"},
+    {"drive_too_weak_to_be_seen", resonant_loop + "vibration_noise_m_per_s = 2e-4\n",
+     "max_voltage_amplitude_V = 8", "max_voltage_amplitude_V = 1e-3",
+     "16:27: drive.max_voltage_amplitude_V: 0.001 V give a vibration of 2.65e-05 m/s at most, and the noise "
+     "and the converter of the vibration sensor hide one below 0.0032 m/s; allowed: above 0.1207 V"},
     {"resonance_at_standstill", resonant_loop, "velocity_m_per_s = 0.0267", "velocity_m_per_s = 0",
      "10:20: sliding.velocity_m_per_s: is 0 all the time, where no vibration changes the friction; "
      "allowed: another velocity with controller.vibration = \"resonant\""},

@@ -70,10 +70,16 @@ const std::vector<BadOverride> bad_overrides = {
      "--set:1:1: plant.mass_kg: is a table; allowed: a number, 1e-12 to 1e+06 kg"},
     {"not_toml", "--set plant.mass_kg=1.2.3",
      "--set:1:1: plant.mass_kg: \"1.2.3\" is no TOML value; allowed: a number with a decimal "
-     "point, true, false, a list in [ ], a text in \" \" or a bare word"},
+     "point, true, false, a list in [ ], a table in { } that has each key once, a text in \" \" or a bare "
+     "word"},
     {"decimal_comma", "--set plant.mass_kg=0,02",
      "--set:1:1: plant.mass_kg: \"0,02\" is no TOML value; allowed: a number with a decimal "
-     "point, true, false, a list in [ ], a text in \" \" or a bare word"},
+     "point, true, false, a list in [ ], a table in { } that has each key once, a text in \" \" or a bare "
+     "word"},
+    {"key_twice_in_a_table", "--set 'controller.target_texture={ratio=[0.4],ratio=[0.5]}'",
+     "--set:1:1: controller.target_texture: \"{ratio=[0.4],ratio=[0.5]}\" is no TOML value; allowed: a "
+     "number with a decimal point, true, false, a list in [ ], a table in { } that has each key once, a text "
+     "in \" \" or a bare word"},
     {"second_value", "--set 'plant.mass_kg=1\nstiffness_N_per_m = 2'",
      "--set:1:1: plant.mass_kg: more than one value; allowed: one TOML value or a bare word"},
     {"unknown_word", "--set friction.law=dahll",

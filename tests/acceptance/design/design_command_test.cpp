@@ -78,6 +78,34 @@ TEST(DesignCommand, ContactsWithoutASteadyOrbitAreRejected) {
                      "--set:1:1: friction.normal_force_profile_N: a design is for a plant");
 }
 
+// The range of a target is in its own unit.
+TEST(DesignCommand, ATargetForceOutOfRangeIsToldInNewtons) {
+  const ScratchFolder folder;
+  const std::string belt =
+      "design " SONOGLIDE_SCENES
+      "/belt_force.toml --set friction.normal_force_profile_N= --set friction.normal_force_N=400 "
+      "--set sliding.profile= --set sliding.velocity_m_per_s=0.1 --set ";
+  for (const char* target : {"[[0.0,100]]", "[[0.0,1e-6]]"}) {
+    const Outcome outcome =
+        folder.run(belt + "'controller.target_friction_force_N=" + target + "'");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(
+        outcome.err.find("controller.target_friction_force_N: no target to design for; allowed: at "
+                         "least one of 0.1 N to below 100 N"),
+        std::string::npos)
+        << outcome.err;
+  }
+}
+
+TEST(DesignCommand, ARatioIsNotShiftedByMoreThanItCanMove) {
+  const ScratchFolder folder;
+  const Outcome outcome = folder.run("design " SONOGLIDE_SCENES "/wire_bonder.toml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("as far as it can move, to 0 or 1, more than the settling band"),
+            std::string::npos)
+      << outcome.out;
+}
+
 // The lowest ratio of this contact is about that of its closed form, and no force reaches 0.104.
 TEST(DesignCommand, ARatioBelowTheLowestIsSoonFound) {
   ScratchFolder folder;

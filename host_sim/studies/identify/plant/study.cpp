@@ -83,7 +83,8 @@ void require_identifiable(const configure::Experiment& experiment) {
       {!scene.sensor.force, "sensor.force",
        "the plant is seen in the readings of a force sensor; required: true"},
       {scene.load.has_value(), "load",
-       "of a body that slides by itself the velocity is not held; allowed: a table [sliding]"},
+       "the plant is measured at a sliding velocity that is given, and a load's follows from the forces on "
+       "it; required: a table [sliding] in its place"},
       {scene.controller->texture.has_value(), "controller.target_texture",
        "the plant is seen in target steps; allowed: target_friction_ratio or "
        "target_friction_force_N"},

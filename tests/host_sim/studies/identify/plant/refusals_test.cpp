@@ -34,6 +34,18 @@ TEST(RequireIdentifiable, NamesTheKeyInTheWay) {
             "controller.relearn_every_s");
 }
 
+TEST(RequireIdentifiable, ALoadIsRefusedInPlainWords) {
+  try {
+    require_identifiable(experiment::read_file(SCENES "fingertip.toml"));
+    FAIL();
+  } catch (const configure::ConfigurationError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "the plant is measured at a sliding velocity that is given, and a load's follows from the "
+        "forces on it; required: a table [sliding] in its place");
+  }
+}
+
 std::string reason_against(const std::vector<std::string>& unit) {
   const configure::Experiment scene = experiment::read_file(SCENES "target_step.toml");
   const configure::Experiment recorded = experiment::read_file(SCENES "target_step.toml", unit);
