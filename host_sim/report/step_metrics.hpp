@@ -231,6 +231,13 @@ class StepMeter final : public loop::PeriodSink {
   double sum_ = 0.0;
 };
 
+/// The steps of a loop, which is run for them alone.
+/// @param plant   the scene of the plant, in closed loop
+/// @param design  of the controller
+/// @throws loop::ComputationError
+std::vector<StepMetrics> measured_steps(const scene::Scene& plant,
+                                        const configure::ControlDesign& design);
+
 /// Largest |ratio − target| over the carrier periods in which the target can be expected to be met:
 /// sliding at or above the speed floor from end to end, and more than ten periods after the target
 /// step, the end of calibration or the last period at the actuator's or the slew limit.

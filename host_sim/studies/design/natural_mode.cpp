@@ -13,7 +13,7 @@
 #include "host_sim/configure/nominal_plant.hpp"
 #include "host_sim/configure/vibration/bias_design.hpp"
 #include "host_sim/configure/vibration/ramp_design.hpp"
-#include "host_sim/loop/run.hpp"
+#include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene/names.hpp"
 
@@ -67,25 +67,19 @@ scene::Scene trial(scene::Scene scene, const std::vector<double>& ratios, double
 
 enum class Outcome { settled, late, never };
 
-Outcome outcome_of(const configure::Experiment& experiment) {
-  report::StepMeter meter(experiment.plant, *experiment.design);
-  loop::Watch watch;
-  watch.periods.push_back(&meter);
-  watch.energies = false;
-  try {
-    loop::run(experiment, watch);
-  } catch (const loop::ComputationError&) {
-    return Outcome::never;
-  }
+Outcome outcome_of(const configure::Experiment& experiment) try {
   Outcome worst = Outcome::settled;
   const double prompt_s = prompt_periods / experiment.plant.drive->frequency_Hz;
-  for (const report::StepMetrics& step : meter.steps()) {
+  for (const report::StepMetrics& step :
+       report::measured_steps(experiment.plant, *experiment.design)) {
     if (!step.settling_time_s) {
       return Outcome::never;
     }
     worst = *step.settling_time_s > prompt_s ? Outcome::late : worst;
   }
   return worst;
+} catch (const loop::ComputationError&) {
+  return Outcome::never;
 }
 
 /// Whether the largest drive gives the vibration that the lowest ratio needs.

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -39,20 +38,6 @@ namespace sonoglide::unit::console_test {
 namespace {
 
 using Lines = std::vector<std::string>;
-
-/// A byte link of a unit, on the other end of a pseudo-terminal.
-class TerminalLink {
- public:
-  explicit TerminalLink(const PseudoTerminal& terminal) : number_(terminal.number()) {}
-  bool receive(std::uint8_t& byte) {
-    pollfd there{number_, POLLIN, 0};
-    return poll(&there, 1, 0) > 0 && read(number_, &byte, 1) == 1;
-  }
-  bool send(std::uint8_t byte) { return write(number_, &byte, 1) == 1; }
-
- private:
-  int number_;
-};
 
 /// Serves a piece of a device's work again and again, on a thread.
 class Device {

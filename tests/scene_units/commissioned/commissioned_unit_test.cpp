@@ -1,7 +1,5 @@
 /// A unit in a plant that nobody has told its controller of, and the program that finds out.
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,12 +13,12 @@
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
-#include "hal/host/simulated_board.hpp"
 #include "hal/timed/volatile_pages.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
+#include "tests/scene_units/agreement/period_board.hpp"
 #include "tests/scene_units/agreement/scene_unit.hpp"
 
 #include "target_step/controller_configuration.hpp"
@@ -34,25 +32,6 @@ constexpr FieldDesign<Parts> design(configuration::parameters,
                                     first_target(configuration::target_steps),
                                     configuration::design, configuration::full_scales,
                                     configuration::step_period_s, 0);
-
-/// A byte link of a unit, on the other end of a pseudo-terminal.
-class TerminalLink {
- public:
-  explicit TerminalLink(const unit::PseudoTerminal& terminal) : number_(terminal.number()) {}
-  bool receive(std::uint8_t& byte) const {
-    pollfd there{number_, POLLIN, 0};
-    return poll(&there, 1, 0) > 0 && read(number_, &byte, 1) == 1;
-  }
-  bool send(std::uint8_t byte) const { return write(number_, &byte, 1) == 1; }
-
- private:
-  int number_;
-};
-
-struct NeverReset {
-  static void feed() {}
-  static bool caused_reset() { return false; }
-};
 
 struct Over {};
 
@@ -68,17 +47,8 @@ class ServedPort : public PortOfParts<Parts> {
 
  private:
   using ServedUnit = Unit<Parts, Pages, std::atomic, 1024>;
-  using Service = LinkService<ServedUnit, TerminalLink, 256>;
+  using Service = LinkService<ServedUnit, unit::TerminalLink, 256>;
   static constexpr int steps_in_service = 64;
-
-  class Board : public hal::host::SimulatedBoard<hal::Sample, hal::Drive> {
-   public:
-    void begin_period() { ++period_; }
-    std::uint32_t period() const { return period_; }
-
-   private:
-    std::uint32_t period_ = 0;
-  };
 
   hal::Drive answer(const hal::Sample& sample) override {
     if (over_) {
@@ -96,12 +66,12 @@ class ServedPort : public PortOfParts<Parts> {
 
   Pages pages_;
   ServedUnit unit_{design, pages_};
-  TerminalLink bytes_;
+  unit::TerminalLink bytes_;
   Service service_{unit_, bytes_};
-  Board board_;
+  PeriodBoard<hal::Sample, hal::Drive> board_;
   NeverReset watchdog_;
-  TimedLoop<ServedUnit::Supervisor, Board, NeverReset, Service> loop_{unit_.supervisor(), board_,
-                                                                      watchdog_, service_};
+  TimedLoop<ServedUnit::Supervisor, PeriodBoard<hal::Sample, hal::Drive>, NeverReset, Service>
+      loop_{unit_.supervisor(), board_, watchdog_, service_};
   std::uint64_t steps_ = 0;
   std::int32_t largest_amplitude_ = 0;
   std::atomic<bool> over_{false};

@@ -16,7 +16,6 @@
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/control/interface/names.hpp"
-#include "hal/host/simulated_board.hpp"
 #include "hal/timed/volatile_pages.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/run.hpp"
@@ -25,6 +24,7 @@
 #include "host_sim/unit/unit_scales.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/firmware/app/unit/simulated_line.hpp"
+#include "tests/scene_units/agreement/period_board.hpp"
 #include "tests/scene_units/agreement/scene_unit.hpp"
 
 #define configuration target_step_configuration
@@ -44,11 +44,6 @@ using link::Trigger;
 
 constexpr std::size_t steps_kept = 512;
 constexpr std::uint16_t steps_before = 50;
-
-struct NeverReset {
-  static void feed() {}
-  static bool caused_reset() { return false; }
-};
 
 /// A unit and the line to its host, in a plant that waits while the host waits for the line. Its service comes
 /// round once in so many carrier periods.
@@ -121,15 +116,6 @@ class TracedPort : public PortOfParts<Parts> {
   using Bytes = hal::BufferedLink<Uart, 2 * most_bytes, 64>;
   using Service = LinkService<TracedUnit, Bytes, most_bytes>;
 
-  class Board : public hal::host::SimulatedBoard<Sample, Drive> {
-   public:
-    void begin_period() { ++period_; }
-    std::uint32_t period() const { return period_; }
-
-   private:
-    std::uint32_t period_ = 0;
-  };
-
   Drive answer(const Sample& sample) override {
     if (steps_++ == arms_at_) {
       arm(static_cast<std::uint8_t>(Trigger::target), steps_before);
@@ -194,9 +180,9 @@ class TracedPort : public PortOfParts<Parts> {
   Uart uart_;
   Bytes bytes_{uart_};
   Service service_{unit_, bytes_};
-  Board board_;
+  PeriodBoard<Sample, Drive> board_;
   NeverReset watchdog_;
-  TimedLoop<typename TracedUnit::Supervisor, Board, NeverReset, Service> loop_{
+  TimedLoop<typename TracedUnit::Supervisor, PeriodBoard<Sample, Drive>, NeverReset, Service> loop_{
       unit_.supervisor(), board_, watchdog_, service_};
   link::FrameDecoder decoder_;
   std::size_t taken_ = 0;

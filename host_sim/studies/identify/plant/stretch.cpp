@@ -4,14 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "firmware/numeric/scalar.hpp"
 #include "hal/board.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 
 namespace sonoglide::identify::plant {
 namespace {
-
-constexpr double full_scale = 2147483648.0;
 
 /// At least so many periods of the natural mode, and of the carrier.
 constexpr double lead_in_modes = 16.0;
@@ -64,7 +63,7 @@ class Player final : public loop::ControlPort {
     const auto amplitude =
         static_cast<std::int32_t>(std::lround(part() * static_cast<double>(step().amplitude)));
     if (exchanges_ >= lead_in_ && readings_.size() < stretch_.steps.size()) {
-      readings_.push_back(sample.friction_force / full_scale);
+      readings_.push_back(numeric::from_code<double>(sample.friction_force));
     }
     ++exchanges_;
     return {amplitude, 0, static_cast<std::uint8_t>(control::State::running), 0, 0, 0};
@@ -84,7 +83,7 @@ class Player final : public loop::ControlPort {
 double sliding_velocity_m_per_s(const configure::ControlDesign& design, const Stretch& stretch) {
   double sum = 0.0;
   for (const RecordedStep& step : stretch.steps) {
-    sum += step.sliding_velocity / full_scale;
+    sum += numeric::from_code<double>(step.sliding_velocity);
   }
   return design.scales.velocity_m_per_s * sum / static_cast<double>(stretch.steps.size());
 }
@@ -94,7 +93,7 @@ double sliding_velocity_m_per_s(const configure::ControlDesign& design, const St
 Eigen::VectorXd readings(const Stretch& stretch) {
   Eigen::VectorXd all(static_cast<Eigen::Index>(stretch.steps.size()));
   for (std::size_t i = 0; i < stretch.steps.size(); ++i) {
-    all(static_cast<Eigen::Index>(i)) = stretch.steps[i].friction_force / full_scale;
+    all(static_cast<Eigen::Index>(i)) = numeric::from_code<double>(stretch.steps[i].friction_force);
   }
   return all;
 }

@@ -8,7 +8,6 @@
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/plant/failure.hpp"
-#include "host_sim/loop/run.hpp"
 #include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/scene_error.hpp"
 
@@ -38,16 +37,6 @@ std::string commissioned(const scene::Scene& nominal, const PlantFit& fit) {
   return text + scene_file::to_toml(echo);
 }
 
-std::vector<report::StepMetrics> steps_of(const scene::Scene& plant,
-                                          const configure::ControlDesign& design) {
-  report::StepMeter meter(plant, design);
-  loop::Watch watch;
-  watch.periods.push_back(&meter);
-  watch.energies = false;
-  loop::run(plant, design, watch);
-  return meter.steps();
-}
-
 /// Fills in the scene and the steps on its plant, or says why there are none.
 void add_scene(const configure::Experiment& experiment, PlantStudy& study) {
   std::vector<std::string>& warnings = study.fit.identification.warnings;
@@ -55,8 +44,8 @@ void add_scene(const configure::Experiment& experiment, PlantStudy& study) {
   try {
     const configure::Experiment found = experiment::read_text(text, "commissioned.toml");
     study.scene = text;
-    const auto designed = steps_of(found.plant, *experiment.design);
-    const auto commissioned = steps_of(found.plant, *found.design);
+    const auto designed = report::measured_steps(found.plant, *experiment.design);
+    const auto commissioned = report::measured_steps(found.plant, *found.design);
     for (std::size_t i = 0; i < std::min(designed.size(), commissioned.size()); ++i) {
       study.steps.push_back({designed[i], commissioned[i]});
     }

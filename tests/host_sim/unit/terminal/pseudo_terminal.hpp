@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -29,6 +30,20 @@ class PseudoTerminal {
   process::Descriptor master_;
   process::Descriptor held_;
   std::string device_;
+};
+
+/// A byte link of a unit, on that other end.
+class TerminalLink {
+ public:
+  explicit TerminalLink(const PseudoTerminal& terminal) : number_(terminal.number()) {}
+  bool receive(std::uint8_t& byte) const {
+    pollfd there{number_, POLLIN, 0};
+    return poll(&there, 1, 0) > 0 && read(number_, &byte, 1) == 1;
+  }
+  bool send(std::uint8_t byte) const { return write(number_, &byte, 1) == 1; }
+
+ private:
+  int number_;
 };
 
 /// Carries bytes between a pseudo-terminal and two pipes until the pipe that it reads ends.
