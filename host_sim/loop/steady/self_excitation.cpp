@@ -103,10 +103,8 @@ template <class Multiplier>
 std::vector<double> with_extremes(const std::vector<double>& forces_N,
                                   const Multiplier& multiplier) {
   constexpr int bits = 26;
-  std::vector<double> values;
-  for (const double force_N : forces_N) {
-    values.push_back(multiplier(force_N));
-  }
+  std::vector<double> values(forces_N.size());
+  std::transform(forces_N.begin(), forces_N.end(), values.begin(), multiplier);
   std::vector<double> all = forces_N;
   for (std::size_t i = 1; i + 1 < forces_N.size(); ++i) {
     const double sign = values[i] > 1.0 ? 1.0 : -1.0;
