@@ -82,7 +82,7 @@ std::string text_of(const link::ParameterValue& value, const UnitScales& scales)
 
 /// To six digits.
 std::string text_of(double value, link::ScaleUnit unit) {
-  const std::string number = output::plain_zero(fmt::format("{:.6g}", value));
+  std::string number = output::plain_zero(fmt::format("{:.6g}", value));
   switch (unit) {
     case link::ScaleUnit::newton:
       return number + " N";

@@ -52,8 +52,8 @@ const char* name_of(link::Quantity quantity, bool holds_force) {
 }  // namespace
 
 UnitScales::UnitScales(UnitLink& unit) {
-  for (std::uint8_t i = 0; i < scales_.size(); ++i) {
-    const auto told = unit.ask<link::Scale>(link::ReadScale{i});
+  for (std::size_t i = 0; i < scales_.size(); ++i) {
+    const auto told = unit.ask<link::Scale>(link::ReadScale{static_cast<std::uint8_t>(i)});
     const auto* const scale = std::get_if<link::Scale>(&told);
     if (scale == nullptr) {
       unit.fail(
