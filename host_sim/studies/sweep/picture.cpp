@@ -131,10 +131,9 @@ output::Chart curve(const Plan& plan, const std::vector<PointResult>& rows, std:
     chart.curves.push_back(std::move(failed));
   }
   const auto column = [&](double PointResult::*figure) {
-    std::vector<double> values;
-    for (const PointResult& row : rows) {
-      values.push_back(row.*figure);
-    }
+    std::vector<double> values(rows.size());
+    std::transform(rows.begin(), rows.end(), values.begin(),
+                   [&](const PointResult& row) { return row.*figure; });
     return values;
   };
   // Values side by side are not joined.
