@@ -10,11 +10,7 @@ namespace sonoglide::control {
 
 /// Picks the drive so that the friction ratio, or the friction force, reaches a target; one step per
 /// carrier period. A pure function of its state and the measurement: no clock, no I/O, no heap.
-///
-/// Per unit: force on the sensor's full scale, amplitude on the actuator's limit, friction ratios
-/// on base 2. A drive that is fed forward is asked for an amplitude; speed is on the peak vibration
-/// velocity at full drive, so that the number is that of the vibration velocity too. A vibration
-/// that is observed is asked for its velocity; that and the speed are on the range of its sensor.
+/// Per unit, on the bases of ControllerParameters.
 template <class PartsT>
 class Controller {
  public:
@@ -60,9 +56,9 @@ class Controller {
     Scalar target = target_;
     aim_.give_back(target);
     target_ = whole_ratio();
-    restart(friction_, shaper_);
+    restart_parts(friction_, shaper_);
     regulator_.restart(target_);
-    restart(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
+    restart_parts(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
     vibration_.restart(state_ == State::off || state_ == State::fault);
     backwards_ = false;
     requested_ = Scalar{};
@@ -98,8 +94,7 @@ class Controller {
     if (!numeric::is_finite(target)) {
       return;
     }
-    aim_.take(
-        target, [this] { return believed_friction(); }, level_);
+    aim_.take(target, friction_.believed(configured_friction_), level_);
     const Scalar ratio = numeric::clamp(target, Scalar{}, whole_ratio());
     if (ratio != target_) {
       regulator_.target_changes(ratio - target_);
@@ -130,6 +125,7 @@ class Controller {
 
  private:
   using Request = control::Request<Scalar>;
+  static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
 
   DriveCommand<Scalar> answer(const Measurement& measurement, Fault unusable) {
     if (state_ == State::off || state_ == State::fault) {
@@ -166,13 +162,6 @@ class Controller {
             ? stand(measurement.velocity_at_rail ? Limit::velocity_at_rail : Limit::speed_floor)
             : slide(measurement, speed);
     return state_ == State::fault ? undriven(Limit::none) : apply(wanted);
-  }
-
-  static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
-
-  template <class... Each>
-  static void restart(Each&... part) {
-    (part.restart(), ...);
   }
 
   Request trip(Fault fault) {
@@ -221,16 +210,11 @@ class Controller {
     state_ = State::running;
   }
 
-  Scalar believed_friction() const {
-    return friction_.learning() ? configured_friction_
-                                : friction_.friction_force(configured_friction_);
-  }
-
   /// Takes Fc and adapts the inverse map to it.
   void adopt_friction() {
     take_friction_force(friction_.friction_force(configured_friction_));
     relearning_.adapt(feedforward_, level_);
-    aim_.follow([this] { return believed_friction(); }, level_, target_);
+    aim_.follow(friction_.believed(configured_friction_), level_, target_);
     map_.forget();
   }
 
@@ -271,10 +255,8 @@ class Controller {
       if (task != Task::regulate) {
         regulator_.hold();
       }
-      if (task == Task::regulate || task == Task::resume) {
-        return regulate(measured, speed);
-      }
-      return pause(task, speed);
+      return task == Task::regulate || task == Task::resume ? regulate(measured, speed)
+                                                            : pause(task, speed);
     }
   }
 

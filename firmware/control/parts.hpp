@@ -14,7 +14,6 @@
 #include "firmware/control/limits/sample_inspection.hpp"
 #include "firmware/control/limits/standstill_hold.hpp"
 #include "firmware/control/limits/stuck_detector.hpp"
-#include "firmware/control/limits/tolerant_samples.hpp"
 #include "firmware/control/target.hpp"
 #include "firmware/control/vibration/fed_forward.hpp"
 
@@ -57,10 +56,19 @@ struct Parts {
   static_assert(!Vibration::observed || std::is_same_v<Samples, StrictSamples>);
 };
 
+/// Begins parts afresh.
+template <class... Each>
+void restart_parts(Each&... part) {
+  (part.restart(), ...);
+}
+
 /// Smallest usable speed floor, per unit: where the controller's resolution ends.
 inline constexpr double smallest_speed_floor = 1e-4;
 
-/// Per unit, on the bases of Controller.
+/// Per unit: force on the sensor's full scale, amplitude on the actuator's limit, friction ratios
+/// on base 2. A drive that is fed forward is asked for an amplitude; speed is on the peak vibration
+/// velocity at full drive, so that the number is that of the vibration velocity too. A vibration
+/// that is observed is asked for its velocity; that and the speed are on the range of its sensor.
 template <class PartsT>
 struct ControllerParameters {
   using Scalar = typename PartsT::Scalar;

@@ -23,6 +23,9 @@ class TrustedFriction {
   static constexpr bool learning() { return false; }
   void learn(Scalar, Scalar, bool) {}
   Scalar friction_force(Scalar configured) const { return configured; }
+  auto believed(const Scalar& configured) const {
+    return [&configured] { return configured; };
+  }
   Scalar without_offset(Scalar force) const { return force; }
 };
 
@@ -102,6 +105,11 @@ class LearntFriction {
   Scalar friction_force(Scalar /*configured*/) const {
     return known_[0] && known_[1] ? numeric::half(forward()) + numeric::half(backward())
                                   : (backwards_ ? backward() + tare() : forward() - tare());
+  }
+
+  /// Tells Fc where it is asked for: while it is learnt the configured one.
+  auto believed(const Scalar& configured) const {
+    return [this, &configured] { return learning() ? configured : friction_force(configured); };
   }
 
   /// A reading less the sensor's offset.
