@@ -8,9 +8,9 @@
 
 #include "firmware/app/host_ramp.hpp"
 #include "firmware/app/order_slot.hpp"
-#include "firmware/app/ordered_targets.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/supervisor.hpp"
+#include "firmware/app/target_schedule.hpp"
 #include "firmware/app/trace.hpp"
 #include "hal/board.hpp"
 

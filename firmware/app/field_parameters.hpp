@@ -11,7 +11,7 @@
 #include "firmware/control/controller.hpp"
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/limits/drive_limit.hpp"
-#include "firmware/control/limits/tolerant_samples.hpp"
+#include "firmware/control/limits/sample_inspection.hpp"
 #include "firmware/encoding/crc32.hpp"
 #include "firmware/link/scale_messages.hpp"
 #include "firmware/numeric/scalar.hpp"

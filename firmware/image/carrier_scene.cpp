@@ -9,9 +9,7 @@
 #include "firmware/app/target_schedule.hpp"
 #include "firmware/app/texture.hpp"
 #include "firmware/control/controller.hpp"
-#include "firmware/image/carrier/board_of.hpp"
-#include "firmware/image/carrier/carrier_ticks.hpp"
-#include "firmware/image/carrier/frequency_step.hpp"
+#include "firmware/image/carrier/carrier_board.hpp"
 
 namespace {
 

@@ -11,9 +11,7 @@
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
-#include "firmware/image/carrier/board_of.hpp"
-#include "firmware/image/carrier/carrier_ticks.hpp"
-#include "firmware/image/carrier/frequency_step.hpp"
+#include "firmware/image/carrier/carrier_board.hpp"
 #include "hal/trace_records.hpp"
 
 namespace {

@@ -8,7 +8,6 @@
 #include "firmware/numeric/binary_constant.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/float_series.hpp"
-#include "firmware/numeric/polynomial.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::numeric {

@@ -9,7 +9,6 @@
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/numeric/float_series.hpp"
 #include "firmware/numeric/float_sqrt.hpp"
-#include "firmware/numeric/polynomial.hpp"
 #include "firmware/numeric/turn.hpp"
 
 namespace sonoglide::numeric {

@@ -1,4 +1,4 @@
-#include "firmware/control/limits/tolerant_samples.hpp"
+#include "firmware/control/limits/sample_inspection.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

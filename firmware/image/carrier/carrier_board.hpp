@@ -1,4 +1,5 @@
-/// Refuses, when an image is compiled, what a board that makes the carrier in hardware has no time for.
+/// What an image asks of a board that makes the carrier in hardware; included after the configuration of the
+/// image's controller.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,22 @@
 
 namespace sonoglide::image {
 
-/// Clocks in a carrier period.
+/// The board of an image whose hardware may have an encoder along the sliding, which is in the images of scenes
+/// with a texture alone.
+///
+/// @tparam Hardware  has a Board, and a BoardWithEncoder where it was told of an encoder
+/// @tparam Targets   of the scene
+template <class Hardware, class Targets, class = void>
+struct BoardOf {
+  using Type = typename Hardware::Board;
+};
+template <class Hardware, class Texture>
+struct BoardOf<Hardware, Texture,
+               std::void_t<typename Hardware::BoardWithEncoder, typename Texture::Length>> {
+  using Type = typename Hardware::BoardWithEncoder;
+};
+
+/// Clocks in a carrier period. Refuses, when an image is compiled, what such a board has no time for.
 ///
 /// @tparam Parts          of the controller
 /// @tparam Board          says what it has time and sensors for, and offers period_ticks(period_s), 0 where it
@@ -52,3 +68,24 @@ struct CarrierTicks {
 };
 
 }  // namespace sonoglide::image
+
+namespace sonoglide::app {
+/// Found where the configuration has no step of its own: the drive keeps its frequency.
+inline constexpr double frequency_step_Hz = 0.0;
+namespace configuration {
+inline constexpr double step_of_drive_Hz = frequency_step_Hz;
+}
+
+/// The controller's answers have a frequency.
+inline constexpr bool tuned = configuration::step_of_drive_Hz > 0.0;
+
+/// Tells the board what frequency its answers will have.
+/// @param carrier_period_s  at the start
+template <class Board>
+void tune([[maybe_unused]] Board& board, [[maybe_unused]] double carrier_period_s) {
+  if constexpr (tuned) {
+    board.tune(carrier_period_s, configuration::step_of_drive_Hz);
+  }
+}
+
+}  // namespace sonoglide::app
