@@ -6,6 +6,7 @@
 
 #include <fmt/compile.h>
 
+#include "firmware/control/interface/names.hpp"
 #include "firmware/numeric/float_format.hpp"
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/report/words.hpp"
@@ -86,7 +87,7 @@ void PeriodsCsv::take(const loop::Period& period) {
   row.push_back(',');
   sliding_velocity_m_per_s_.append_to(row, period.begin_velocity_m_per_s);
   row.push_back(',');
-  row.append(std::string_view(limit_name(period.limit)));
+  row.append(std::string_view(control::name(period.limit)));
   if (biased_) {
     row.push_back(',');
     append(row, period.bias_N);

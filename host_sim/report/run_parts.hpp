@@ -1,4 +1,4 @@
-/// The parts of a run's page, each told in a file of its own.
+/// The parts of a run's page.
 #pragma once
 
 #include <cstddef>

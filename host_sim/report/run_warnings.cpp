@@ -10,6 +10,7 @@
 #include <iterator>
 #include <utility>
 
+#include "firmware/control/interface/names.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/report/run_notes.hpp"
 #include "host_sim/report/words.hpp"
@@ -30,7 +31,7 @@ void append_limits(const Course& course, std::vector<std::string>& warnings) {
                             Limit::bad_sample, Limit::frequency_range}) {
     if (const std::uint64_t periods = course.periods_in(limit); periods > 0) {
       warnings.push_back(fmt::format("The controller named the limit {} in {} carrier {}.",
-                                     limit_name(limit), periods,
+                                     control::name(limit), periods,
                                      periods == 1 ? "period" : "periods"));
     }
   }
@@ -157,7 +158,7 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   }
   for (const loop::FaultEvent& event : result.control->faults) {
     all.push_back(fmt::format("Fault at {:.6g} ms: {}. The drive is off from there on.",
-                              event.time_s * 1e3, fault_name(event.fault)));
+                              event.time_s * 1e3, control::name(event.fault)));
   }
   append_drive_limit(scene, *result.control, all);
   if (!scene.sensor.force) {

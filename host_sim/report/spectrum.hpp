@@ -1,4 +1,4 @@
-/// Amplitude spectrum of a uniformly sampled signal.
+/// What a recording shows: the cycle of its contact, and the spectrum of a signal.
 #pragma once
 
 #include <limits>

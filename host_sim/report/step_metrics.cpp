@@ -6,9 +6,7 @@
 #include <numeric>
 
 #include "firmware/control/interface/drive_command.hpp"
-#include "host_sim/loop/plant/sliding_profile.hpp"
-#include "host_sim/loop/steady/requirement.hpp"
-#include "host_sim/report/run_notes.hpp"
+#include "host_sim/loop/run.hpp"
 #include "host_sim/report/self_excitation.hpp"
 #include "host_sim/scene/friction_laws.hpp"
 
@@ -210,107 +208,6 @@ StepMetrics StepMeter::metrics(const TargetSpan& span, const Tally& tally) const
   return metrics;
 }
 
-void StepMeter::name_unseen_limit(const TargetSpan& span, const Tally& tally,
-                                  StepMetrics& metrics) const {
-  const bool read_settled = 2 * tally.settled_periods > tally.steady_periods;
-  const bool off = std::abs(metrics.steady_error) > band_;
-  const bool mismatch = !unit_.is_force() && (read_settled || holds_blindly(span, tally)) && off;
-  metrics.limit = mismatch ? control::Limit::mismatch : control::Limit::not_settling;
-  metrics.limit_seen_by_controller = false;
-  metrics.controller_undecided = senses_force_ && !read_settled;
-  if (!mismatch) {
-    metrics.cause = true_cause(span, tally, off);
-  }
-}
-
-void StepMeter::name_self_excitation(const TargetSpan& span, StepMetrics& metrics) const {
-  const bool other_cause = metrics.limit != control::Limit::not_settling &&
-                           metrics.limit != control::Limit::mismatch &&
-                           metrics.limit != control::Limit::ratio_end;
-  if (!other_cause && may_excite_itself_ &&
-      excites_itself(*may_excite_itself_, span.quarter_s, metrics.drive_amplitude_N)) {
-    metrics.limit = control::Limit::self_excited;
-    metrics.cause = control::Settling::pending;
-    metrics.limit_seen_by_controller = false;
-    metrics.controller_undecided = false;
-  }
-}
-
-std::optional<LeastFriction> StepMeter::least_friction(const TargetSpan& span,
-                                                       const StepMetrics& metrics) const {
-  const scene::Scene& scene = *has_least_friction_;
-  const double sliding_m_per_s =
-      std::abs(loop::SlidingProfile(scene.sliding).velocity_m_per_s(span.quarter_s));
-  if (!(sliding_m_per_s > 0.0)) {
-    return std::nullopt;
-  }
-  // From target and band, which are over the friction limit if they are of a force, to ratios.
-  const double to_ratio =
-      unit_.is_force() ? unit_.size / scene::undriven_friction_N(scene.friction.law, scene.friction,
-                                                                 sliding_m_per_s)
-                       : 1.0;
-  const double target = span.target * to_ratio;
-  if (!(target < 1.0)) {
-    return std::nullopt;
-  }
-  const steady::RequiredVibration needed =
-      steady::closed_form_vibration(scene, sliding_m_per_s, target);
-  const double full_m_per_s = scene.max_drive_force_N() / steady::force_N(scene, 1.0);
-  const double mean_m_per_s = metrics.vibration
-                                  ? metrics.vibration->velocity_m_per_s
-                                  : metrics.drive_amplitude_N / steady::force_N(scene, 1.0);
-  constexpr double clearly = 1.05;
-  const bool below_target = needed.friction_ratio <= target + band_ * to_ratio;
-  const bool full = metrics.limit == control::Limit::actuator ||
-                    metrics.limit == control::Limit::voltage ||
-                    metrics.limit == control::Limit::current;
-  const bool passed = full && mean_m_per_s > clearly * needed.velocity_m_per_s;
-  if (needed.velocity_m_per_s > full_m_per_s || (below_target && !passed)) {
-    return std::nullopt;
-  }
-  return LeastFriction{needed.friction_ratio, needed.velocity_m_per_s, below_target};
-}
-
-void StepMeter::name_least_friction(const TargetSpan& span, StepMetrics& metrics) const {
-  const bool other_cause = metrics.limit == control::Limit::none ||
-                           metrics.limit == control::Limit::self_excited ||
-                           !(metrics.steady_error > band_);
-  if (other_cause || !has_least_friction_) {
-    return;
-  }
-  metrics.least_friction = least_friction(span, metrics);
-  if (metrics.least_friction && (metrics.limit == control::Limit::not_settling ||
-                                 metrics.limit == control::Limit::mismatch)) {
-    metrics.limit = resonant_ ? control::Limit::voltage : control::Limit::actuator;
-    metrics.cause = control::Settling::pending;
-    metrics.limit_seen_by_controller = false;
-    metrics.controller_undecided = false;
-  }
-}
-
-void StepMeter::name_passed_bound(const Tally& tally, StepMetrics& metrics) const {
-  const bool above =
-      largest_current_A_ && tally.current_A > told_current_excess * *largest_current_A_;
-  if (!tally.open && !(above && metrics.limit == control::Limit::none)) {
-    return;
-  }
-  metrics.limit = tally.open ? control::Limit::contact_lost : control::Limit::current;
-  metrics.least_friction.reset();
-  metrics.cause = control::Settling::pending;
-  metrics.limit_seen_by_controller = false;
-  metrics.controller_undecided = false;
-}
-
-control::Settling StepMeter::true_cause(const TargetSpan& span, const Tally& tally,
-                                        bool off) const {
-  const bool above = tally.highest > span.target + band_;
-  const bool below = tally.lowest < span.target - band_;
-  if (above && below) {
-    return control::Settling::ringing;
-  }
-  return off ? control::Settling::offset : control::Settling::pending;
-}
-
 VibrationMetrics StepMeter::vibration_metrics(const TargetSpan& span, const Tally& tally) {
   VibrationMetrics metrics;
   metrics.velocity_m_per_s = tally.velocity_sum_m_per_s / static_cast<double>(tally.steady_periods);
@@ -327,46 +224,14 @@ ResonanceMetrics StepMeter::resonance_metrics(const Tally& tally) {
   return metrics;
 }
 
-namespace {
-
-constexpr int settling_periods = 10;
-
-bool is_free(const loop::Period& period) {
-  const bool driven =
-      period.state == control::State::running || period.state == control::State::limited;
-  const bool limited =
-      period.limit == control::Limit::actuator || period.limit == control::Limit::slew ||
-      period.limit == control::Limit::voltage || period.limit == control::Limit::current ||
-      period.limit == control::Limit::frequency_range ||
-      period.limit == control::Limit::velocity_at_rail;
-  return driven && !limited;
-}
-
-}  // namespace
-
-TrackingMeter::TrackingMeter(const scene::Scene& scene, double speed_floor_m_per_s)
-    : cursor_(scene), unit_(target_unit(scene)), speed_floor_m_per_s_(speed_floor_m_per_s) {}
-
-void TrackingMeter::take(const loop::Period& period) {
-  const std::size_t index = cursor_.span_of(period);
-  if (index == SpanCursor::none) {
-    return;
-  }
-  if (index != span_) {
-    span_ = index;
-    free_periods_ = 0;
-  }
-  if (!is_free(period)) {
-    free_periods_ = 0;
-    return;
-  }
-  free_periods_ = std::min(free_periods_ + 1, settling_periods + 1);
-  const double slowest_m_per_s =
-      std::min(std::abs(period.begin_velocity_m_per_s), std::abs(period.end_velocity_m_per_s));
-  if (free_periods_ > settling_periods && slowest_m_per_s >= speed_floor_m_per_s_) {
-    const double error = std::abs(unit_.held(period) - cursor_.spans()[index].target);
-    largest_ = std::max(largest_.value_or(0.0), error);
-  }
+std::vector<StepMetrics> measured_steps(const scene::Scene& plant,
+                                        const configure::ControlDesign& design) {
+  StepMeter meter(plant, design);
+  loop::Watch watch;
+  watch.periods.push_back(&meter);
+  watch.energies = false;
+  loop::run(plant, design, watch);
+  return meter.steps();
 }
 
 }  // namespace sonoglide::report

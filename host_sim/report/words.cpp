@@ -45,25 +45,13 @@ std::string held_head(const TargetUnit& unit, const char* name) {
   return unit.is_force() ? fmt::format("{} [{}]", name, unit.name) : name;
 }
 
-std::string limit_name(control::Limit limit) {
-  return control::name(limit);
-}
-
-std::string fault_name(control::Fault fault) {
-  return control::name(fault);
-}
-
-std::string settling_name(control::Settling settling) {
-  return control::name(settling);
-}
-
 std::string limit_text(const report::StepMetrics& step) {
-  std::string text = limit_name(step.limit);
+  std::string text = control::name(step.limit);
   if (std::isnan(step.steady_error)) {
     return text + ", no carrier period to judge it by";
   }
   if (step.limit == control::Limit::not_settling && step.cause != control::Settling::pending) {
-    text += fmt::format(" ({})", settling_name(step.cause));
+    text += fmt::format(" ({})", control::name(step.cause));
   }
   if (const auto& least = step.least_friction) {
     text += least->below_target
@@ -94,6 +82,10 @@ std::string stack_text(const loop::ImageMemory& record) {
 
 const char* counted(const loop::ImageRecord& record) {
   return record.counts_clocks ? "clocks" : "instructions (not cycles)";
+}
+
+nlohmann::ordered_json instructions(const loop::InstructionRange& range) {
+  return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
 }
 
 }  // namespace
@@ -127,6 +119,37 @@ output::Table image_table(const loop::ImageRecord& record) {
     row("Exchanges per second", fmt::format("{:.0f}", *record.exchanges_per_second));
   }
   return table;
+}
+
+nlohmann::ordered_json image_json(const loop::ImageRecord& record) {
+  nlohmann::ordered_json json = {
+      {"board", record.board},
+      {"exchanges_per_second", output::json_number(record.exchanges_per_second)},
+      {"trace_hash_workstation", nullptr},
+      {"same_as_workstation", nullptr},
+      {"instructions_per_step", nullptr},
+      {"instructions_per_answer", nullptr},
+      {"flash_bytes", nullptr},
+      {"ram_bytes", nullptr},
+      {"stack_bytes_bound", nullptr}};
+  if (record.workstation) {
+    json["trace_hash_workstation"] = fmt::format("{:016x}", record.workstation->trace_hash);
+    json["same_as_workstation"] = record.workstation->same;
+  }
+  if (record.instructions) {
+    json["instructions_per_step"] = instructions(record.instructions->step);
+    json["instructions_per_answer"] = instructions(record.instructions->answer);
+  }
+  if (record.memory) {
+    json["flash_bytes"] = record.memory->flash_bytes;
+    json["ram_bytes"] = record.memory->ram_bytes;
+    if (record.memory->stack_bytes_bound) {
+      json["stack_bytes_bound"] = *record.memory->stack_bytes_bound;
+    } else {
+      json["stack_unbounded_by"] = record.memory->stack_unbounded_by;
+    }
+  }
+  return json;
 }
 
 std::string image_lines(const loop::ImageRecord& record) {

@@ -1,7 +1,9 @@
-/// How the reports speak: names of limits and faults, figures, the cost of an image.
+/// How the reports speak: limits, figures, the cost of an image.
 #pragma once
 
 #include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <string>
@@ -41,15 +43,15 @@ std::string width_figure(const TargetUnit& unit, double part);
 /// The same as the head of a column: `error`, `error [N]`.
 std::string held_head(const TargetUnit& unit, const char* name);
 
-std::string limit_name(control::Limit limit);
-std::string fault_name(control::Fault fault);
 /// The limit of a target step, with its cause, how far belief and truth are apart, and whether only
 /// the simulation can see it; all where there is something to say.
 std::string limit_text(const report::StepMetrics& step);
-std::string settling_name(control::Settling settling);
 
 /// Every figure with its name.
 output::Table image_table(const loop::ImageRecord& record);
+
+/// The same for summary.json; what is not known is null.
+nlohmann::ordered_json image_json(const loop::ImageRecord& record);
 
 /// The same in two lines.
 std::string image_lines(const loop::ImageRecord& record);
