@@ -5,20 +5,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <regex>
 #include <sstream>
-#include <system_error>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
-#include "firmware/encoding/decimal.hpp"
-#include "host_sim/output/number.hpp"
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/process/printable.hpp"
 #include "host_sim/unit/unit_trace.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
@@ -27,117 +20,9 @@ namespace {
 
 using app::parameter_labels;
 
-constexpr auto target_parameter = static_cast<std::size_t>(app::Parameter::target);
-
-/// A text as a count of units of a parameter's last decimal place.
-struct ReadValue {
-  std::uint32_t count = 0;
-  std::string error;  ///< why it is none; empty where it is one
-};
-
-/// Of a force in newtons the nearest count, of others the same number.
-/// @return the largest count of what is beyond every range: the unit names its own
-ReadValue read_value(const std::string& text, std::size_t parameter, const UnitScales& scales) {
-  static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
-  static const std::regex trailing_zeros("\\.?0*$");
-  if (!std::regex_match(text, number)) {
-    return {0, fmt::format("\"{}\" is no number", text)};
-  }
-  if (scales.is_force(parameter)) {
-    const double force_N = number_of(text);
-    return {force_N < 0.0 ? UINT32_MAX : scales.count_of_parameter(parameter, force_N), ""};
-  }
-  const int places = parameter_labels[parameter].decimal_places;
-  const bool negative = text.front() == '-';
-  const std::string digits = text.substr(negative ? 1 : 0);
-  const std::size_t point = digits.find('.');
-  const std::string fraction = point == std::string::npos ? "" : digits.substr(point);
-  if (std::regex_replace(fraction, trailing_zeros, "").size() >
-      static_cast<std::size_t>(places) + 1) {
-    return {0, places == 0 ? fmt::format("\"{}\" is no whole number", text)
-                           : fmt::format("\"{}\" has more than {} decimal places", text, places)};
-  }
-  std::uint32_t count = UINT32_MAX;
-  encoding::read_decimal(digits.data(), digits.size(), places, count);
-  return {negative && count > 0 ? UINT32_MAX : count, ""};
-}
-
 /// A line, without blanks that say nothing.
 std::string shown(const std::string& name, const std::vector<std::string>& words) {
   return words.empty() ? name : fmt::format("{} {}", name, fmt::join(words, " "));
-}
-
-std::string range_of(const link::ParameterValue& value, const UnitScales& scales) {
-  return fmt::format("{} to {}{}", scales.text_of_parameter(value.parameter, value.lowest),
-                     scales.text_of_parameter(value.parameter, value.highest),
-                     scales.unit_of_parameter(value.parameter));
-}
-
-std::string text_of(const link::ParameterValue& value, const UnitScales& scales) {
-  return fmt::format("{} {}, compiled in {}; allowed is {}", parameter_labels[value.parameter].name,
-                     scales.text_of_parameter(value.parameter, value.value),
-                     scales.text_of_parameter(value.parameter, value.preset),
-                     range_of(value, scales));
-}
-
-/// To six digits.
-std::string text_of(double value, link::ScaleUnit unit) {
-  std::string number = output::plain_zero(fmt::format("{:.6g}", value));
-  switch (unit) {
-    case link::ScaleUnit::newton:
-      return number + " N";
-    case link::ScaleUnit::metre_per_second:
-      return number + " m/s";
-    case link::ScaleUnit::volt:
-      return number + " V";
-    case link::ScaleUnit::ratio:
-      return number;
-    case link::ScaleUnit::none:
-      break;
-  }
-  return "none";
-}
-
-std::string text_of(const link::Telemetry& told, const UnitScales& scales) {
-  constexpr auto amplitude = link::Quantity::amplitude;
-  std::string text =
-      fmt::format("state {}, target {}{}, drive {}, limit {}",
-                  control::name(static_cast<control::State>(told.state)),
-                  scales.text_of_parameter(target_parameter, told.target),
-                  scales.unit_of_parameter(target_parameter),
-                  text_of(scales.value_of(amplitude, static_cast<std::uint32_t>(told.amplitude)),
-                          scales[amplitude].unit),
-                  control::name(static_cast<control::Limit>(told.limit)));
-  if (const auto settling = static_cast<control::Settling>(told.settling);
-      settling != control::Settling::pending) {
-    text += fmt::format(", {}", control::name(settling));
-  }
-  if (told.mismatch > 0) {
-    text += ", nominal/true friction " + decimal(told.mismatch, 3);
-  }
-  text += fmt::format(", fault {}, parameters {}, period {}", app::fault_name(told.fault),
-                      app::name(static_cast<store::Origin>(told.parameters)), told.period);
-  if (told.lost_frames > 0) {
-    text += fmt::format(", frames lost {}", told.lost_frames);
-  }
-  return text;
-}
-
-std::string text_of(const UnitScales& scales) {
-  const auto text = [&](link::Quantity quantity) {
-    return text_of(scales[quantity].value, scales[quantity].unit);
-  };
-  return fmt::format("full scale of force {}, velocity {}, drive {}, bias {}",
-                     text(link::Quantity::friction_force), text(link::Quantity::sliding_velocity),
-                     text(link::Quantity::amplitude), text(link::Quantity::bias));
-}
-
-std::string text_of(const link::Identity& told) {
-  const std::string board = board_of(told);
-  return fmt::format("{}firmware {}.{}.{}, design {:#010x}, serial number {}",
-                     board.empty() ? "" : process::printable(board) + ", ", told.major_number,
-                     told.minor_number, told.patch_number, told.design,
-                     told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
 }
 
 }  // namespace
@@ -380,24 +265,12 @@ Console::Lines Console::trace(const Words& words) {
   return {"trace waiting"};
 }
 
-/// Where it cannot be written is known before the trace is read.
 Console::Lines Console::save_trace(const link::TraceState& state, const std::string& file) {
   if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
     return refuse(text_of(state) + ": nothing to save");
   }
-  const std::filesystem::path path = std::filesystem::absolute(file);
-  const std::string name = path.filename().string();
-  std::error_code unknown;
-  if (name.empty() || std::filesystem::is_directory(path, unknown)) {
-    return refuse(process::printable(file) + ": is a folder; allowed: a new file");
-  }
-  if (std::filesystem::exists(std::filesystem::symlink_status(path, unknown))) {
-    return refuse(process::printable(file) + ": is there already; allowed: a new file");
-  }
   try {
-    output::OutputFolder folder(path.parent_path(), {name});
-    folder.write(name, read_trace(unit_, scales_, state));
-    folder.commit();
+    unit::save_trace(unit_, scales_, state, file);
   } catch (const process::FileError& error) {
     return refuse(error.what());
   }

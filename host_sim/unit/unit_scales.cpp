@@ -18,21 +18,6 @@ std::uint32_t rounded(double count) {
   return whole >= 0.0 && whole < UINT32_MAX ? static_cast<std::uint32_t>(whole) : UINT32_MAX;
 }
 
-const char* suffix_of(link::ScaleUnit unit) {
-  switch (unit) {
-    case link::ScaleUnit::newton:
-      return "_N";
-    case link::ScaleUnit::metre_per_second:
-      return "_m_per_s";
-    case link::ScaleUnit::volt:
-      return "_V";
-    case link::ScaleUnit::none:
-    case link::ScaleUnit::ratio:
-      break;
-  }
-  return "";
-}
-
 const char* name_of(link::Quantity quantity, bool holds_force) {
   switch (quantity) {
     case link::Quantity::friction_force:
@@ -51,6 +36,21 @@ const char* name_of(link::Quantity quantity, bool holds_force) {
 
 }  // namespace
 
+UnitName unit_name(link::ScaleUnit unit) {
+  switch (unit) {
+    case link::ScaleUnit::newton:
+      return {"_N", " N"};
+    case link::ScaleUnit::metre_per_second:
+      return {"_m_per_s", " m/s"};
+    case link::ScaleUnit::volt:
+      return {"_V", " V"};
+    case link::ScaleUnit::none:
+    case link::ScaleUnit::ratio:
+      break;
+  }
+  return {"", ""};
+}
+
 UnitScales::UnitScales(UnitLink& unit) {
   for (std::size_t i = 0; i < scales_.size(); ++i) {
     const auto told = unit.ask<link::Scale>(link::ReadScale{static_cast<std::uint8_t>(i)});
@@ -64,7 +64,8 @@ UnitScales::UnitScales(UnitLink& unit) {
 }
 
 std::string UnitScales::column_of(link::Quantity quantity) const {
-  return fmt::format("{}{}", name_of(quantity, holds_force()), suffix_of((*this)[quantity].unit));
+  return fmt::format("{}{}", name_of(quantity, holds_force()),
+                     unit_name((*this)[quantity].unit).behind_key);
 }
 
 double UnitScales::value_of(link::Quantity quantity, std::uint32_t code) const {
@@ -106,7 +107,7 @@ std::uint32_t UnitScales::count_of_parameter(std::size_t parameter, double value
 }
 
 double UnitScales::target_of(std::uint32_t count) const {
-  return value_of_parameter(static_cast<std::size_t>(app::Parameter::target), count);
+  return value_of_parameter(target_parameter, count);
 }
 
 double UnitScales::force_of(std::size_t parameter) const {

@@ -10,6 +10,13 @@
 
 namespace sonoglide::unit {
 
+/// How a unit of measurement is written.
+struct UnitName {
+  const char* behind_key;     ///< "_m_per_s"
+  const char* behind_number;  ///< " m/s"
+};
+UnitName unit_name(link::ScaleUnit unit);
+
 /// What the full scales are that a unit was built with.
 class UnitScales {
  public:

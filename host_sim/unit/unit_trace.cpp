@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <filesystem>
 #include <system_error>
 
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/unit/stream_table.hpp"
 
@@ -122,6 +125,8 @@ std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceSta
   return records;
 }
 
+namespace {
+
 std::string read_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state) {
   const auto extra = static_cast<link::TraceExtra>(state.extra);
   std::string table =
@@ -135,6 +140,24 @@ std::string read_trace(UnitLink& unit, const UnitScales& scales, const link::Tra
     table += row_of(period++, record, extra, scales) + "\n";
   }
   return table;
+}
+
+}  // namespace
+
+void save_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state,
+                const std::string& file) {
+  const std::filesystem::path path = std::filesystem::absolute(file);
+  const std::string name = path.filename().string();
+  std::error_code unknown;
+  if (name.empty() || std::filesystem::is_directory(path, unknown)) {
+    process::fail(file, "is a folder; allowed: a new file");
+  }
+  if (std::filesystem::exists(std::filesystem::symlink_status(path, unknown))) {
+    process::fail(file, "is there already; allowed: a new file");
+  }
+  output::OutputFolder folder(path.parent_path(), {name});
+  folder.write(name, read_trace(unit, scales, state));
+  folder.commit();
 }
 
 }  // namespace sonoglide::unit

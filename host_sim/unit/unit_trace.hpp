@@ -26,9 +26,12 @@ std::string text_of(const link::TraceState& state);
 /// @throws process::ProcessError  the unit does not answer, or another host armed it anew
 std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceState& state);
 
-/// A whole trace as CSV: a row for each step, oldest first, with the names of the columns above them, which
-/// are those of periods.csv where both have the same.
+/// Writes a whole trace as CSV: a row for each step, oldest first, with the names of the columns above them,
+/// which are those of periods.csv where both have the same.
+/// @param file  a new one; where it cannot be written is known before the trace is read
 /// @throws process::ProcessError  as read_records()
-std::string read_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state);
+/// @throws process::FileError     the file is there, or the file system refuses
+void save_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state,
+                const std::string& file);
 
 }  // namespace sonoglide::unit

@@ -7,14 +7,29 @@
 #include <array>
 #include <charconv>
 #include <iterator>
+#include <regex>
 #include <vector>
 
 #include "firmware/app/parameter_labels.hpp"
+#include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "host_sim/output/number.hpp"
+#include "host_sim/process/printable.hpp"
 
 namespace sonoglide::unit {
 
 using app::parameter_labels;
+
+namespace {
+
+/// To six digits.
+std::string text_of(double value, link::ScaleUnit unit) {
+  return unit == link::ScaleUnit::none
+             ? "none"
+             : output::plain_zero(fmt::format("{:.6g}", value)) + unit_name(unit).behind_number;
+}
+
+}  // namespace
 
 std::string decimal(std::uint32_t value, int places) {
   std::array<char, encoding::most_decimal_characters> text{};
@@ -71,6 +86,86 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter,
       break;
   }
   return fmt::format("refused by the unit, reason {}", refusal.reason);
+}
+
+ReadValue read_value(const std::string& text, std::size_t parameter, const UnitScales& scales) {
+  static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
+  static const std::regex trailing_zeros("\\.?0*$");
+  if (!std::regex_match(text, number)) {
+    return {0, fmt::format("\"{}\" is no number", text)};
+  }
+  if (scales.is_force(parameter)) {
+    const double force_N = number_of(text);
+    return {force_N < 0.0 ? UINT32_MAX : scales.count_of_parameter(parameter, force_N), ""};
+  }
+  const int places = parameter_labels[parameter].decimal_places;
+  const bool negative = text.front() == '-';
+  const std::string digits = text.substr(negative ? 1 : 0);
+  const std::size_t point = digits.find('.');
+  const std::string fraction = point == std::string::npos ? "" : digits.substr(point);
+  if (std::regex_replace(fraction, trailing_zeros, "").size() >
+      static_cast<std::size_t>(places) + 1) {
+    return {0, places == 0 ? fmt::format("\"{}\" is no whole number", text)
+                           : fmt::format("\"{}\" has more than {} decimal places", text, places)};
+  }
+  std::uint32_t count = UINT32_MAX;
+  encoding::read_decimal(digits.data(), digits.size(), places, count);
+  return {negative && count > 0 ? UINT32_MAX : count, ""};
+}
+
+std::string range_of(const link::ParameterValue& value, const UnitScales& scales) {
+  return fmt::format("{} to {}{}", scales.text_of_parameter(value.parameter, value.lowest),
+                     scales.text_of_parameter(value.parameter, value.highest),
+                     scales.unit_of_parameter(value.parameter));
+}
+
+std::string text_of(const link::ParameterValue& value, const UnitScales& scales) {
+  return fmt::format("{} {}, compiled in {}; allowed is {}", parameter_labels[value.parameter].name,
+                     scales.text_of_parameter(value.parameter, value.value),
+                     scales.text_of_parameter(value.parameter, value.preset),
+                     range_of(value, scales));
+}
+
+std::string text_of(const link::Telemetry& told, const UnitScales& scales) {
+  constexpr auto amplitude = link::Quantity::amplitude;
+  std::string text =
+      fmt::format("state {}, target {}{}, drive {}, limit {}",
+                  control::name(static_cast<control::State>(told.state)),
+                  scales.text_of_parameter(target_parameter, told.target),
+                  scales.unit_of_parameter(target_parameter),
+                  text_of(scales.value_of(amplitude, static_cast<std::uint32_t>(told.amplitude)),
+                          scales[amplitude].unit),
+                  control::name(static_cast<control::Limit>(told.limit)));
+  if (const auto settling = static_cast<control::Settling>(told.settling);
+      settling != control::Settling::pending) {
+    text += fmt::format(", {}", control::name(settling));
+  }
+  if (told.mismatch > 0) {
+    text += ", nominal/true friction " + decimal(told.mismatch, 3);
+  }
+  text += fmt::format(", fault {}, parameters {}, period {}", app::fault_name(told.fault),
+                      app::name(static_cast<store::Origin>(told.parameters)), told.period);
+  if (told.lost_frames > 0) {
+    text += fmt::format(", frames lost {}", told.lost_frames);
+  }
+  return text;
+}
+
+std::string text_of(const UnitScales& scales) {
+  const auto text = [&](link::Quantity quantity) {
+    return text_of(scales[quantity].value, scales[quantity].unit);
+  };
+  return fmt::format("full scale of force {}, velocity {}, drive {}, bias {}",
+                     text(link::Quantity::friction_force), text(link::Quantity::sliding_velocity),
+                     text(link::Quantity::amplitude), text(link::Quantity::bias));
+}
+
+std::string text_of(const link::Identity& told) {
+  const std::string board = board_of(told);
+  return fmt::format("{}firmware {}.{}.{}, design {:#010x}, serial number {}",
+                     board.empty() ? "" : process::printable(board) + ", ", told.major_number,
+                     told.minor_number, told.patch_number, told.design,
+                     told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
 }
 
 }  // namespace sonoglide::unit
