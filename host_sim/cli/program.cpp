@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host_sim/cli/usage.hpp"
-#include "host_sim/emulated/image_process.hpp"
+#include "host_sim/emulated/lockstep_image.hpp"
 #include "host_sim/long_work/collection.hpp"
 #include "host_sim/long_work/slurm.hpp"
 #include "host_sim/loop/run.hpp"

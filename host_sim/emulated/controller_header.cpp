@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "firmware/control/controller.hpp"
@@ -13,9 +12,7 @@
 #include "firmware/numeric/fixed.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/control_design.hpp"
-#include "host_sim/configure/controller_parameters.hpp"
-#include "host_sim/configure/controller_parts.hpp"
-#include "host_sim/emulated/initialiser.hpp"
+#include "host_sim/emulated/part_text.hpp"
 #include "host_sim/emulated/target_text.hpp"
 #include "host_sim/process/printable.hpp"
 
@@ -50,82 +47,6 @@ struct ScalarName<Q15> {
   static constexpr const char* type = "numeric::Q15<numeric::Saturating>";
   static constexpr const char* header = "firmware/numeric/fixed.hpp";
 };
-
-/// One part of the controller: what its parameters are called, its text, and the initialiser of its
-/// parameters.
-struct ChosenPart {
-  std::string slot;
-  PartText text;
-  std::string parameters;
-};
-
-/// Visits the choices of configure::ControllerParts.
-template <class Scalar>
-struct PartChoices {
-  const configure::ControlDesign& design;
-  std::vector<ChosenPart> chosen;
-
-  template <class Choice>
-  void operator()(const char* slot, const Choice& choice) {
-    std::visit(
-        [&](auto part) {
-          const auto parameters = configure::parameters(design, part);
-          chosen.push_back(
-              {slot, part_text(part, parameters), Initialiser<Scalar>::of(parameters)});
-        },
-        choice);
-  }
-};
-
-template <class Scalar>
-std::vector<ChosenPart> chosen_parts(const configure::ControlDesign& design) {
-  PartChoices<Scalar> parts{design, {}};
-  configure::ControllerParts<Scalar>(design).fields(parts);
-  return parts.chosen;
-}
-
-/// Visits the parameters of a controller: a line for each, those of the chosen parts as they are
-/// told in `parts`.
-template <class Scalar>
-struct ParameterLines {
-  const std::vector<ChosenPart>& parts;
-  const configure::ControlScales& scales;
-  std::string text;
-
-  template <class Field>
-  void operator()(const std::string& name, const Field& field) {
-    const auto part = std::find_if(parts.begin(), parts.end(),
-                                   [&](const ChosenPart& each) { return each.slot == name; });
-    text += part == parts.end() ? line(Initialiser<Scalar>::of(field), name + base(name))
-                                : line(part->parameters, part->text.type);
-  }
-
-  static std::string line(const std::string& value, const std::string& comment) {
-    return fmt::format("    {},  // {}\n", value, comment);
-  }
-
-  /// What a number is a multiple of.
-  std::string base(const std::string& name) const {
-    if (name == "friction_force") {
-      return fmt::format(", of {} N", scales.force_N);
-    }
-    return name == "speed_floor" ? fmt::format(", of {} m/s", scales.velocity_m_per_s) : "";
-  }
-};
-
-/// The parameters that are no part's are the same with any parts.
-template <class Scalar, class Force>
-std::string parameter_lines(const configure::ControlDesign& design,
-                            const std::vector<ChosenPart>& parts) {
-  using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
-                               control::CoulombFeedforward<Scalar>, control::NoSlewLimit<Scalar>,
-                               control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
-                               control::NoRelearning<Scalar>, control::FedForward<Scalar>, Force>;
-  ParameterLines<Scalar> lines{parts, design.scales, {}};
-  const auto parameters = configure::controller_parameters<Parts>(design);
-  control::Controller<Parts>::Parameters::fields(parameters, lines);
-  return lines.text;
-}
 
 std::string includes(const std::vector<ChosenPart>& parts, const char* scalar_header,
                      const char* target_header) {

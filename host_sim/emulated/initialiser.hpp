@@ -7,102 +7,14 @@
 #include <cstddef>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include "firmware/friction/inverse_table.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/scalar.hpp"
-#include "host_sim/configure/controller_parts.hpp"
 
 namespace sonoglide::emulated {
-
-/// How an image's code names a part.
-struct PartText {
-  std::vector<std::string> headers;  ///< in firmware/control, without .hpp
-  std::string type;
-};
-
-/// @param told  what its type is told beside its scalar
-template <class Part>
-PartText part_text(const std::string& told = {}) {
-  return {{Part::part_name.header}, fmt::format("{}<Scalar{}>", Part::part_name.type, told)};
-}
-
-template <template <class> class Part, class Scalar, class Parameters>
-PartText part_text(configure::Type<Part<Scalar>> /*part*/, const Parameters& /*parameters*/) {
-  return part_text<Part<Scalar>>();
-}
-
-template <class Scalar, int MaxSpacing, std::size_t TapCount, class Parameters>
-PartText part_text(configure::Type<control::NotchShaper<Scalar, MaxSpacing, TapCount>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::NotchShaper<Scalar, MaxSpacing, TapCount>>(
-      TapCount == 3 ? fmt::format(", {}", parameters.spacing)
-                    : fmt::format(", {}, {}", parameters.spacing, TapCount));
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::IntegralRegulator<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::IntegralRegulator<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay_periods));
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::AdaptiveRegulator<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::AdaptiveRegulator<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay_periods));
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::ScalingRegulator<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::ScalingRegulator<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay_periods));
-}
-
-/// The periods of delay that a vibration is told.
-template <class Parameters>
-auto delay_of(const Parameters& parameters) -> decltype(parameters.delay) {
-  return parameters.delay;
-}
-template <class Parameters>
-auto delay_of(const Parameters& parameters) -> decltype(parameters.vibration.delay) {
-  return parameters.vibration.delay;
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::DampedVibration<Scalar, MaxDelay>>(
-      fmt::format(", {}", delay_of(parameters)));
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::BiasedDampedVibration<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::BiasedDampedVibration<Scalar, MaxDelay>>(
-      fmt::format(", {}", delay_of(parameters)));
-}
-
-/// A vibration that has a part of its own.
-template <template <class, int, class> class Vibration, class Scalar, int MaxDelay, class Inner,
-          class Parameters>
-PartText part_text(configure::Type<Vibration<Scalar, MaxDelay, Inner>> /*part*/,
-                   const Parameters& parameters) {
-  PartText text = part_text<Vibration<Scalar, MaxDelay, Inner>>(
-      fmt::format(", {}, control::{}<Scalar>", delay_of(parameters), Inner::part_name.type));
-  text.headers.emplace_back(Inner::part_name.header);
-  return text;
-}
-
-/// Of a part without a scalar.
-template <class Part, class Parameters>
-PartText part_text(configure::Type<Part> /*part*/, const Parameters& /*parameters*/) {
-  return {{Part::part_name.header}, Part::part_name.type};
-}
 
 /// Writes a value as the initialiser of a variable of its type, bit for bit: a number, an array, a
 /// numeric::Split, or a structure that lists its fields (see control::Parts).

@@ -1,13 +1,19 @@
 /// A controller image in lockstep, wherever it runs.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "hal/board.hpp"
 #include "hal/lockstep/frame.hpp"
+#include "host_sim/process/child_process.hpp"
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/serial_port.hpp"
 
 namespace sonoglide::emulated {
 
@@ -63,6 +69,58 @@ class LockstepImage {
   std::uint32_t period_ = 0;
   bool greeted_ = false;
   hal::lockstep::AnswerCost cost_{};
+};
+
+/// A board in lockstep at the other end of a serial line.
+class SerialImage final : public LockstepImage {
+ public:
+  /// @param port      outlives this
+  /// @param patience  an answer that takes longer never comes
+  SerialImage(process::SerialPort& port, std::chrono::milliseconds patience)
+      : port_(port), patience_(patience) {}
+
+  void send(const std::uint8_t* bytes, std::size_t size) override { port_.send(bytes, size); }
+
+ private:
+  void receive(std::uint8_t* bytes, std::size_t size) override;
+  [[noreturn]] void fail(const std::string& what) const override;
+
+  process::SerialPort& port_;
+  std::chrono::milliseconds patience_;
+};
+
+/// Runs an emulator with its standard input and output connected to this object. The emulator ends
+/// with its owner, or with the owner's process.
+class ImageProcess final : public LockstepImage {
+ public:
+  /// @param command   the emulator and its arguments
+  /// @param patience  an answer that takes longer never comes
+  /// @throws process::ProcessError  the emulator cannot be started
+  ImageProcess(const std::vector<std::string>& command, std::chrono::milliseconds patience);
+
+  void send(const std::uint8_t* bytes, std::size_t size) override;
+
+  /// Ends the input and waits for the image to leave; to be called once, last.
+  /// @return its exit code
+  /// @throws ImageError  it does not leave in time, still sends something, or was ended by a
+  /// signal
+  int shut_down();
+
+  /// Of the emulator.
+  pid_t process() const { return child_->id(); }
+
+ private:
+  void receive(std::uint8_t* bytes, std::size_t size) override;
+  void wait_for_answer();
+  /// With the emulator's last words.
+  [[noreturn]] void fail(const std::string& what) const override;
+  std::string last_words() const;
+
+  std::chrono::milliseconds patience_;
+  process::Pipe samples_;
+  process::Pipe drives_;
+  process::Descriptor complaints_;
+  std::optional<process::ChildProcess> child_;
 };
 
 }  // namespace sonoglide::emulated

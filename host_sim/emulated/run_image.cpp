@@ -8,8 +8,7 @@
 #include <filesystem>
 
 #include "host_sim/emulated/image.hpp"
-#include "host_sim/emulated/image_process.hpp"
-#include "host_sim/emulated/serial_image.hpp"
+#include "host_sim/emulated/lockstep_image.hpp"
 #include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::emulated {
