@@ -7,7 +7,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/plant/failure.hpp"
-#include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -7,7 +7,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/loop/plant/carrier_grid.hpp"
-#include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/plant/sliding_profile.hpp"
 #include "host_sim/loop/plant/step_meter.hpp"
 

@@ -16,9 +16,7 @@
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/velocity_quadrature.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/plant/contact_load.hpp"
 #include "host_sim/loop/plant/contact_memory.hpp"
-#include "host_sim/loop/plant/load_motion.hpp"
 #include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/plant/step_reader.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "firmware/numeric/turn.hpp"
-#include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 
 namespace sonoglide::loop {
 namespace {

@@ -14,7 +14,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::loop {

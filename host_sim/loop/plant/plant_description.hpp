@@ -25,8 +25,7 @@ struct PlantDescription {
 template <class Law>
 std::unique_ptr<PlantPort> make_law_plant(const PlantDescription& description, const Law& law);
 
-/// The same of a scene with a load; defined in compose_loaded_plant.hpp and made of
-/// law_loaded_plants.cpp.in.
+/// The same of a scene with a load; made of law_loaded_plants.cpp.in.
 template <class Law>
 std::unique_ptr<PlantPort> make_loaded_plant(const PlantDescription& description, const Law& law);
 

@@ -1,6 +1,7 @@
 /// The plant seen from the simulation, in SI units, whatever it is composed of.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "firmware/plant/outcome.hpp"
@@ -88,5 +89,8 @@ class PlantPort {
   /// Of all that the motion goes on from, in a plant that was made for the same scene.
   virtual void copy_state(StateCopy& copy) = 0;
 };
+
+/// The plant of a scene, composed of exactly what the scene names, in its initial state.
+std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene);
 
 }  // namespace sonoglide::loop

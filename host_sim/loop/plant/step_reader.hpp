@@ -2,17 +2,102 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "firmware/numeric/gauss_legendre.hpp"
 #include "firmware/plant/state.hpp"
 #include "firmware/plant/velocity_quadrature.hpp"
-#include "host_sim/loop/plant/contact_load.hpp"
-#include "host_sim/loop/plant/load_motion.hpp"
 #include "host_sim/loop/plant/step_meter.hpp"
+#include "host_sim/loop/plant/undriven_friction.hpp"
 
 namespace sonoglide::loop {
+
+/// What the friction ratio asks of the sliding of a load.
+///
+/// Observes the steps of one interval (see plant::NoObserver), in which the sliding velocity is smooth,
+/// and integrates its modulus and the undriven friction by Gauss-Legendre quadrature in each.
+class LoadMotion {
+ public:
+  /// @param undriven  null: the friction limit, at any speed. Outlives this
+  LoadMotion(double velocity_unit_m_per_s, const UndrivenFriction* undriven)
+      : velocity_unit_m_per_s_(velocity_unit_m_per_s), undriven_friction_(undriven) {}
+
+  template <class Step>
+  void operator()(const Step& step) {
+    static constexpr auto rule = numeric::gauss_legendre<8>();
+    const double length = step.length();
+    see(step.at(0.0).sliding_velocity);
+    see(step.at(length).sliding_velocity);
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const double velocity = step.at(length * rule.node[i]).sliding_velocity;
+      see(velocity);
+      distance_ += length * rule.weight[i] * std::abs(velocity);
+      undriven_ += length * rule.weight[i] *
+                   (undriven_friction_ == nullptr
+                        ? 1.0
+                        : undriven_friction_->part_at(velocity * velocity_unit_m_per_s_));
+    }
+  }
+
+  double distance() const { return distance_; }  ///< integral of |r| over tau
+  double undriven() const { return undriven_; }  ///< of F0/Fc
+  /// 1 or -1 if it slid in one direction all the time, 0 if it turned or stood.
+  double direction() const { return slowest_ > 0.0 ? 1.0 : fastest_ < 0.0 ? -1.0 : 0.0; }
+
+ private:
+  void see(double velocity) {
+    slowest_ = std::min(slowest_, velocity);
+    fastest_ = std::max(fastest_, velocity);
+  }
+
+  double velocity_unit_m_per_s_;
+  const UndrivenFriction* undriven_friction_;
+  double slowest_ = std::numeric_limits<double>::infinity();
+  double fastest_ = -std::numeric_limits<double>::infinity();
+  double distance_ = 0.0;
+  double undriven_ = 0.0;
+};
+
+/// How a contact that vibrates normally is loaded.
+///
+/// Observes the steps of one interval (see plant::NoObserver), each of which ends where the contact
+/// opens or closes, and integrates N/N0 = (1 + nu y)_+ by Gauss-Legendre quadrature in each.
+///
+/// Error: a few roundings for steps up to 3 rad, in which the displacement is smooth.
+class ContactLoad {
+ public:
+  /// @param normal_stiffness  nu, see friction::NormalCoulomb
+  explicit ContactLoad(double normal_stiffness) : normal_stiffness_(normal_stiffness) {}
+
+  template <class Step>
+  void operator()(const Step& step) {
+    static constexpr auto rule = numeric::gauss_legendre<16>();
+    const double length = step.length();
+    const auto pressure = [&](double offset) {
+      return 1.0 + normal_stiffness_ * step.at(offset).displacement;
+    };
+    if (!(pressure(0.5 * length) > 0.0)) {
+      open_ += length;
+      return;
+    }
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      load_ += length * rule.weight[i] * pressure(length * rule.node[i]);
+    }
+  }
+
+  double load() const { return load_; }  ///< integral of N/N0 over tau
+  double open() const { return open_; }  ///< tau in which the contact is open
+
+ private:
+  double normal_stiffness_;
+  double load_ = 0.0;
+  double open_ = 0.0;
+};
 
 /// Reads off the steps, as they are taken, what is asked for; made by default, nothing. One type
 /// serves all, so that a solver is compiled once.
