@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
+#include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/friction/inverse_design.hpp"
 #include "host_sim/configure/friction/vibration_map.hpp"
-#include "host_sim/configure/texture_design.hpp"
 #include "host_sim/configure/vibration/bias_design.hpp"
 #include "host_sim/configure/vibration/damped_design.hpp"
 #include "host_sim/configure/vibration/notch_design.hpp"
@@ -21,6 +21,24 @@
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::configure {
+
+/// The numbers of a target that runs along the sliding distance. The integers are those of app::TexturePath and
+/// of the steps that advance it.
+struct TextureDesign {
+  std::vector<double> values;  ///< friction ratios, or forces [N]
+  std::int64_t period = 0;
+  std::uint32_t inverse = 0;
+  std::uint32_t lead = 0;
+  std::uint32_t weight = 0;
+
+  /// Steepest change of the vibration at the fastest sliding, over what the drive can: above 1 it is not
+  /// followed there. 0 where nothing limits it.
+  double overload = 0.0;
+  /// Strongest vibration of the texture there, over what a resonant drive holds; 0 of another drive.
+  double vibration_demand = 0.0;
+  double fastest_m_per_s = 0.0;                 ///< sliding
+  control::Limit limit = control::Limit::none;  ///< that is named where it is not followed
+};
 
 /// What the controller's per-unit numbers are multiples of.
 struct ControlScales {

@@ -1,4 +1,4 @@
-#include "host_sim/configure/texture_design.hpp"
+#include "host_sim/configure/control_design.hpp"
 
 #include <fmt/format.h>
 

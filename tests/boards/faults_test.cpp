@@ -20,7 +20,7 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/image_process.hpp"
+#include "host_sim/emulated/lockstep_image.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "monitor.hpp"

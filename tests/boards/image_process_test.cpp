@@ -1,5 +1,5 @@
 // What becomes of an emulator, and of who waits for it, when things go wrong.
-#include "host_sim/emulated/image_process.hpp"
+#include "host_sim/emulated/lockstep_image.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,8 +20,7 @@ get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 
 # What CMake has made and the two versions of the interface are compiled one by one, the other files
 # of each room as one.
-set(units "${CMAKE_CURRENT_SOURCE_DIR}/libraries/fmt_here.cpp"
-  "${CMAKE_CURRENT_SOURCE_DIR}/libraries/toml_here.cpp"
+set(units "${CMAKE_CURRENT_SOURCE_DIR}/libraries/compiled_in.cpp"
   "${PROJECT_SOURCE_DIR}/host_sim/process/printable.cpp")
 set(rooms ${shared_rooms} fmi_binary)
 list(REMOVE_ITEM rooms process)  # the rest of which is of this system

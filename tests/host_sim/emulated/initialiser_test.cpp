@@ -17,8 +17,8 @@
 #include "firmware/control/friction/periodic_relearning.hpp"
 #include "firmware/control/limits/drive_limit.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
+#include "firmware/control/limits/sample_inspection.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
-#include "firmware/control/limits/tolerant_samples.hpp"
 #include "firmware/plant/strang/fixed_point_strang.hpp"
 
 namespace sonoglide::emulated::initialiser_test {

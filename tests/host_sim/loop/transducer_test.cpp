@@ -15,7 +15,7 @@
 
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/electrical.hpp"
-#include "host_sim/loop/plant/make_plant_port.hpp"
+#include "host_sim/loop/plant/plant_port.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/field_parameters.hpp"
-#include "firmware/app/ordered_targets.hpp"
+#include "firmware/app/target_schedule.hpp"
 #include "firmware/app/texture.hpp"
 #include "firmware/app/unit.hpp"
 #include "hal/board.hpp"

@@ -1,4 +1,4 @@
-#include "host_sim/studies/identify/plant/plant_fit.hpp"
+#include "host_sim/studies/identify/plant/study.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 /// The answer of the mean friction to a small change of the velocity, against the contact itself
 /// integrated with and without the change.
-#include "host_sim/configure/vibration/friction_response.hpp"
+#include "host_sim/configure/vibration/sensorless_reading.hpp"
 
 #include <gtest/gtest.h>
 

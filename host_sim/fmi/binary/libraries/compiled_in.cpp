@@ -1,5 +1,8 @@
-// The formatting library's own functions, compiled in: an FMU needs no shared library of it.
+// The own functions of the TOML parser and of the formatting library, compiled in: an FMU needs no shared
+// library of them.
+#define TOML_IMPLEMENTATION
 #include <fmt/format-inl.h>
+#include <toml++/toml.h>
 
 FMT_BEGIN_NAMESPACE
 namespace detail {
