@@ -122,7 +122,16 @@ class InProcess : public ControlPort {
 
  protected:
   Drive answer(const Sample& sample) {
-    const numeric::LedgerScope scope(ledger_);
+    if constexpr (numeric::IsCounted<Scalar>::value) {
+      const numeric::LedgerScope scope(ledger_);
+      return served(sample);
+    } else {
+      return served(sample);
+    }
+  }
+
+ private:
+  Drive served(const Sample& sample) {
     board_.post(sample);
     if (texture_) {
       texture_->schedule().advance(controller_);
@@ -133,7 +142,6 @@ class InProcess : public ControlPort {
     return board_.latest_drive();
   }
 
- private:
   void copy_texture(StateCopy& copy) {
     bool follows = texture_.has_value();
     copy(follows);

@@ -72,6 +72,9 @@ void Sensor::for_each_conversion(const PeriodForce& force, const Take& take) {
 }
 
 Conversion Sensor::reading(const PeriodForce& force) {
+  if (conversions_ == 1) {
+    return converted(force.samples_N.empty() ? filtered(force.mean_N) : force.samples_N.front());
+  }
   std::int64_t sum = 0;
   bool at_rail = false;
   for_each_conversion(force, [&](double force_N) {

@@ -115,12 +115,14 @@ void StepMeter::take_any(const loop::Period& period, const TargetSpan& span, Tal
   if (period.target / unit_.size == span.target) {  // else still driven for the target before
     tally.overshoot = std::max(tally.overshoot, span.target < span.previous ? -error : error);
   }
-  constexpr double velocity_band = 0.02;
-  const double wanted_m_per_s = period.wanted_vibration_m_per_s;
-  tally.velocity_wanted = tally.velocity_wanted || wanted_m_per_s > 0.0;
-  if (!(std::abs(std::abs(period.vibration_m_per_s) - wanted_m_per_s) <=
-        velocity_band * wanted_m_per_s)) {
-    tally.velocity_settled_s = period.end_s;
+  if (observes_vibration_) {
+    constexpr double velocity_band = 0.02;
+    const double wanted_m_per_s = period.wanted_vibration_m_per_s;
+    tally.velocity_wanted = tally.velocity_wanted || wanted_m_per_s > 0.0;
+    if (!(std::abs(std::abs(period.vibration_m_per_s) - wanted_m_per_s) <=
+          velocity_band * wanted_m_per_s)) {
+      tally.velocity_settled_s = period.end_s;
+    }
   }
   if (largest_current_A_ && period.whole) {
     tally.current_A = std::max(tally.current_A, std::abs(period.current_A));
@@ -149,10 +151,14 @@ void StepMeter::take_steady(const loop::Period& period, Tally& tally) const {
   if (period.limit == control::Limit::not_settling) {
     tally.cause = period.settling;
   }
-  tally.velocity_sum_m_per_s += std::abs(period.vibration_m_per_s);
-  tally.frequency_sum_Hz += period.frequency_Hz;
-  tally.frequency_error =
-      std::max(tally.frequency_error, std::abs(period.frequency_Hz / period.natural_Hz - 1.0));
+  if (observes_vibration_) {
+    tally.velocity_sum_m_per_s += std::abs(period.vibration_m_per_s);
+  }
+  if (resonant_) {
+    tally.frequency_sum_Hz += period.frequency_Hz;
+    tally.frequency_error =
+        std::max(tally.frequency_error, std::abs(period.frequency_Hz / period.natural_Hz - 1.0));
+  }
   ++tally.steady_periods;
 }
 
