@@ -160,11 +160,14 @@ class GaussStep {
     Products sum = {numeric::sum_of_lanes<Scalar>(square), numeric::sum_of_lanes<Scalar>(friction),
                     numeric::sum_of_lanes<Scalar>(cosine), numeric::sum_of_lanes<Scalar>(sine)};
     for (std::size_t m = 0; m < Motions::count; ++m) {
-      sum.square +=
-          share[m] * Motions::sum_of(share, [&](std::size_t n) { return motions_.product[m][n]; });
+      sum.square += share[m] * Motions::sum_of(share, [&](std::size_t n) {
+                      return motions_.products().motion[m][n];
+                    });
     }
-    sum.cosine += Motions::sum_of(share, [&](std::size_t m) { return motions_.with_wave[0][m]; });
-    sum.sine += Motions::sum_of(share, [&](std::size_t m) { return motions_.with_wave[1][m]; });
+    sum.cosine +=
+        Motions::sum_of(share, [&](std::size_t m) { return motions_.products().wave[0][m]; });
+    sum.sine +=
+        Motions::sum_of(share, [&](std::size_t m) { return motions_.products().wave[1][m]; });
     return sum;
   }
 
@@ -188,7 +191,7 @@ class GaussStep {
                                  numeric::sum_of_lanes<Scalar>(mean)};
     for (std::size_t n = 0; n < sum.size(); ++n) {
       sum[n] += Motions::sum_of(panel_.share(),
-                                [&](std::size_t m) { return motions_.with_wave[2 + n][m]; });
+                                [&](std::size_t m) { return motions_.products().wave[2 + n][m]; });
     }
     return sum;
   }

@@ -53,6 +53,10 @@ struct PanelMotions {
     Scalar rate;
   };
   using Each = std::array<Scalar, count>;
+  struct Products {
+    std::array<Each, count> motion{};     ///< integrals over x of products of two motions
+    std::array<Each, wave_count> wave{};  ///< of motions and cos(h x), sin(h x), …
+  };
   struct alignas(16) OnGrid : std::array<Scalar, PanelGrid::padded> {};
 
   Scalar half_length = Scalar(0);
@@ -74,41 +78,21 @@ struct PanelMotions {
   std::array<Scalar, 2> largest_rate{};  ///< and of |C'| and |S'|
   Each error{};                          ///< bounds of what the shortening loses of each
   Scalar slow_error = Scalar(0);
-  std::array<Each, count> product{};         ///< integrals over x of products of two motions
-  std::array<Each, wave_count> with_wave{};  ///< of motions and cos(h x), sin(h x), …
-  std::array<Scalar, 2> harmonic_end{};      ///< cos(h), sin(h)
+  std::array<Scalar, 2> harmonic_end{};  ///< cos(h), sin(h)
 
   PanelMotions() = default;
   PanelMotions(const Model& model, Scalar panel_half_length)
       : half_length(panel_half_length),
         stiffness(model.stiffness * half_length * half_length),
         damping(model.damping_force(half_length)) {
-    std::array<Series, wave_count> waves{wave(Scalar(1), Scalar(0)), wave(Scalar(0), half_length)};
-    if constexpr (is_ramped) {
-      for (std::size_t n = 1; n < terms; ++n) {
-        waves[2][n] = waves[0][n - 1];
-        waves[3][n] = waves[1][n - 1];
-      }
-      waves[4][0] = Scalar(1);
-    }
-    std::array<Series, count> series{};
-    series[0] = solution(Scalar(1), Scalar(0), Series{});
-    series[1] = solution(Scalar(0), Scalar(1), Series{});
-    for (std::size_t m = 2; m < count; ++m) {
-      series[m] = solution(Scalar(0), Scalar(0), waves[m - 2]);
-    }
+    const std::array<Series, wave_count> waves = this->waves();
+    const std::array<Series, count> series = all_series(waves);
     for (std::size_t g = 0; g < PanelGrid::points; ++g) {
       since_begin[g] = grid(g) + Scalar(1);
     }
     for (std::size_t m = 0; m < count; ++m) {
       tabulate(m, series[m]);
       error[m] = shorten(series[m], motion[m]) + numeric::abs(series[m][terms - 1]);
-      for (std::size_t n = 0; n < count; ++n) {
-        product[m][n] = integral_of_product(series[m], series[n]);
-      }
-      for (std::size_t n = 0; n < wave_count; ++n) {
-        with_wave[n][m] = integral_of_product(series[m], waves[n]);
-      }
     }
     for (std::size_t m = 0; m < 2; ++m) {
       largest[m] = bound(series[m]);
@@ -120,6 +104,15 @@ struct PanelMotions {
     if constexpr (is_ramped) {
       largest[2] = bound(series[6]);
     }
+  }
+
+  /// What energies take. Nobody else waits for it: it is made when it is first asked for.
+  const Products& products() const {
+    if (!has_products_) {
+      make_products();
+      has_products_ = true;
+    }
+    return products_;
   }
 
   /// C(x) and S(x), to the lower degree.
@@ -190,6 +183,41 @@ struct PanelMotions {
  private:
   static constexpr std::size_t terms = 33;
   using Series = std::array<Scalar, terms>;
+
+  std::array<Series, wave_count> waves() const {
+    std::array<Series, wave_count> all{wave(Scalar(1), Scalar(0)), wave(Scalar(0), half_length)};
+    if constexpr (is_ramped) {
+      for (std::size_t n = 1; n < terms; ++n) {
+        all[2][n] = all[0][n - 1];
+        all[3][n] = all[1][n - 1];
+      }
+      all[4][0] = Scalar(1);
+    }
+    return all;
+  }
+
+  std::array<Series, count> all_series(const std::array<Series, wave_count>& waves) const {
+    std::array<Series, count> all{};
+    all[0] = solution(Scalar(1), Scalar(0), Series{});
+    all[1] = solution(Scalar(0), Scalar(1), Series{});
+    for (std::size_t m = 2; m < count; ++m) {
+      all[m] = solution(Scalar(0), Scalar(0), waves[m - 2]);
+    }
+    return all;
+  }
+
+  [[gnu::noinline]] void make_products() const {
+    const std::array<Series, wave_count> waves = this->waves();
+    const std::array<Series, count> series = all_series(waves);
+    for (std::size_t m = 0; m < count; ++m) {
+      for (std::size_t n = 0; n < count; ++n) {
+        products_.motion[m][n] = integral_of_product(series[m], series[n]);
+      }
+      for (std::size_t n = 0; n < wave_count; ++n) {
+        products_.wave[n][m] = integral_of_product(series[m], waves[n]);
+      }
+    }
+  }
 
   /// Returns a bound of the error of the shortening.
   template <std::size_t Count>
@@ -272,6 +300,9 @@ struct PanelMotions {
     }
     return sum;
   }
+
+  mutable Products products_{};
+  mutable bool has_products_ = false;
 };
 
 }  // namespace sonoglide::plant

@@ -120,6 +120,39 @@ TEST(EventGauss, AgreesWithTaylorToItsTolerance) {
   expect_agreement<Gauss12>(1e-10);
 }
 
+template <class Solver>
+void expect_same_bits(double tolerance) {
+  using numeric::VectorUnit;
+  Plants any;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    const Contact model = any.model();
+    const Interval<double> interval = any.interval();
+    const State<double> before = any.state();
+    const Reached best = reached<Solver>(model, tolerance, interval, before);
+    for (const VectorUnit unit : {VectorUnit::any, VectorUnit::avx2}) {
+      if (unit > numeric::best_vector_unit()) {
+        continue;
+      }
+      auto solver = configured<Solver>(model, tolerance);
+      solver.use(unit);
+      State<double> state = before;
+      EnergyAccount<double> account;
+      EXPECT_EQ(advance(solver, interval, state, account).error, Error::none);
+      EXPECT_EQ(state.displacement, best.state.displacement);
+      EXPECT_EQ(state.velocity, best.state.velocity);
+      EXPECT_EQ(state.friction, best.state.friction);
+      EXPECT_EQ(account.friction_integral, best.account.friction_integral);
+      EXPECT_EQ(account.drive_work, best.account.drive_work);
+    }
+  }
+}
+
+TEST(EventGauss, HasTheSameBitsOnEveryVectorUnit) {
+  expect_same_bits<Gauss8>(1e-6);
+  expect_same_bits<Gauss12>(1e-10);
+}
+
 TEST(EventGauss, IsOneStepForACarrierPeriodOfAWeakContact) {
   const Reached run = reached<Gauss8>(weak, 1e-8, ordinary, start);
   EXPECT_EQ(run.cost.steps, 1U);
