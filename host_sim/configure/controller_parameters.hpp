@@ -164,14 +164,14 @@ typename control::FrictionTracking<Scalar>::Parameters parameters(
   all.mean.wait_periods = design.tracking_wait_periods;
   all.mean.average_periods = design.tracking_average_periods;
   all.mean.weight = scaled<numeric::Accumulator<Scalar>>(design.tracking_weight);
-  all.deviation = scaled<Scalar>(design.tracking_deviation / 4.0);
-  all.noise = scaled<Scalar>(design.tracking_noise / 4.0);
+  all.constants.deviation = scaled<Scalar>(design.tracking_deviation / 4.0);
+  all.constants.noise = scaled<Scalar>(design.tracking_noise / 4.0);
   all.certain = variance(design.tracking_certain);
   all.dip_periods = design.tracking_dip_periods;
   all.edge = scaled_within<Scalar>(design.tracking_edge);
-  all.start.force = variance(tracked_force_deviation);
-  all.start.stiffness = variance(tracked_stiffness_deviation);
-  all.start.gain = variance(design.gain_deviation);
+  all.constants.start.force = variance(tracked_force_deviation);
+  all.constants.start.stiffness = variance(tracked_stiffness_deviation);
+  all.constants.start.gain = variance(design.gain_deviation);
   return all;
 }
 

@@ -128,13 +128,13 @@ void fill(const Design& design, typename FrictionTracking<S>::Parameters& parame
   parameters = {
       {design.tracking_wait_periods, design.tracking_average_periods,
        numeric::from_real<numeric::Accumulator<S>>(1.0 / design.tracking_average_periods)},
-      numeric::from_real<S>(design.tracking_deviation / 4.0),
-      numeric::from_real<S>(design.tracking_noise / 4.0),
+      {numeric::from_real<S>(design.tracking_deviation / 4.0),
+       numeric::from_real<S>(design.tracking_noise / 4.0),
+       {variance(0.3), variance(0.5), variance(design.gain_deviation)}},
       variance(design.tracking_certain),
       static_cast<std::uint16_t>(4 *
                                  (design.tracking_wait_periods + design.tracking_average_periods)),
-      numeric::from_real<S>(1.0 - 3.0 * design.gain_deviation),
-      {variance(0.3), variance(0.5), variance(design.gain_deviation)}};
+      numeric::from_real<S>(1.0 - 3.0 * design.gain_deviation)};
 }
 
 template <class S>
