@@ -39,9 +39,11 @@ void require_trackable(const scene::Scene& scene, const ControlDesign& design) {
   };
   if (controller.vibration) {
     refuse("controller.friction",
-           fmt::format("\"tracked\" is for a drive that is fed forward; allowed with "
-                       "controller.vibration = \"{}\": \"trusted\", \"calibrated\"",
-                       scene::name_of(scene::vibration_controls, *controller.vibration)));
+           fmt::format(
+               "\"tracked\" compares the force with the ratio that the amplitude is fed forward "
+               "for, and with controller.vibration = \"{}\" an observer moves the amplitude; "
+               "allowed: \"trusted\", \"calibrated\", or no controller.vibration",
+               scene::name_of(scene::vibration_controls, *controller.vibration)));
   }
   if (scene.drive->bias_limit_N > 0.0) {
     refuse("controller.friction",
@@ -103,7 +105,8 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
   constexpr double certain_deviations = 2.5;
   constexpr double surely_beyond = 3.0;  // deviations of the gain
   constexpr double least_edge = 0.25;
-  constexpr double dips = 2.0;  // readings that a dip may take
+  constexpr double most_edge = 0.75;  // whatever the scene says, up to a gain of 1.33
+  constexpr double dips = 2.0;        // readings that a dip may take
   const double slewing = design.slew_limited ? 1.0 / design.slew_per_period : 0.0;
   const double readings = std::max(fewest_readings, readings_for_mean(scene, plant));
   const double latency = latency_periods(scene) + design.changing_periods();
@@ -125,7 +128,8 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
   design.tracking_certain =
       std::max(scene.run.settling_band, certain_deviations * design.tracking_deviation);
   design.gain_deviation = gain_deviation(scene, plant);
-  design.tracking_edge = std::max(least_edge, 1.0 - surely_beyond * design.gain_deviation);
+  design.tracking_edge =
+      std::clamp(1.0 - surely_beyond * design.gain_deviation, least_edge, most_edge);
   // A friction that has jumped shows in full in a dip.
   design.implausible_periods =
       whole_periods(design.implausible_periods + design.tracking_wait_periods + readings + slewing);

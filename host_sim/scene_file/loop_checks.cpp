@@ -67,7 +67,7 @@ void check_damping(const TableCursor& drive, const scene::Drive& values) {
     drive.fail("interpolation",
                "\"linear\" is not for controller.vibration = \"damped\", whose "
                "observer foresees amplitudes that change at once; allowed: "
-               "\"step\"");
+               "\"step\", or no controller.vibration");
   }
 }
 

@@ -19,8 +19,10 @@ namespace sonoglide::control {
 /// the filter leaves out. So readings that are taken far from the truth do not make it certain.
 ///
 /// A reading beyond three deviations, |e| > 3 √S, shows that the friction has changed: Fc is then less
-/// certain by e², and R has (|s| e²/2)² more. If it is the first one at another request, it may as well be
-/// that Kt or g is another than was known at the start: they become as uncertain as there, g by e² more.
+/// certain by e², and R has (|s| e²/2)² more. If it is one of the first at a request, it may as well be
+/// that Kt or g is another than was known at the start. There two deviations are the bound, because R keeps
+/// the innovations of a start that is right far below one. Kt and g become as uncertain as at the start, g by
+/// e² more, and by 0.125² at least: Kt is so uncertain that an error of g leaves little of itself in e.
 /// Each reading that is taken in makes every constant less certain by 0.002, so that no constant is ever
 /// known for good.
 ///
@@ -61,11 +63,19 @@ class FrictionEstimate {
   explicit FrictionEstimate(const Parameters& parameters) : parameters_(parameters) { restart(); }
 
   void restart() {
+    contradicted_ = false;
+    forget();
+  }
+
+  /// What is known is that of the start, but that Kt or g as they were there may have been contradicted.
+  void forget() {
     variance_ = {parameters_.force, parameters_.stiffness, parameters_.gain};
+    if (contradicted_) {
+      variance_.gain = numeric::max(variance_.gain, unknown_gain());
+    }
     force_stiffness_ = {};
     force_gain_ = {};
     stiffness_gain_ = {};
-    contradicted_ = false;
   }
 
   /// Of ln Fc, ln Kt and ln g.
@@ -83,14 +93,15 @@ class FrictionEstimate {
   /// Weighs a reading.
   /// @param reading  its slope, deviation and innovation, by halves
   /// @param wanted  take it in where it shows nothing new, too
-  /// @param elsewhere  it is the first one at another request
+  /// @param elsewhere  it is one of the first at a request
   /// @return false: it is not taken in
   bool weigh(const Reading& reading, bool wanted, bool elsewhere) {
+    constexpr Scalar quarter = numeric::from_real<Scalar>(1.0 / 4.0);
     constexpr Scalar ninth = numeric::from_real<Scalar>(1.0 / 9.0);
     const Scalar square = times(reading.innovation, reading.innovation);
     gain_ = product(reading.slope);
     const Scalar neglected = second_order(reading.slope);
-    const bool changed = sum(reading, neglected) < times(ninth, square);
+    const bool changed = sum(reading, neglected) < times(elsewhere ? quarter : ninth, square);
     if (!changed && !wanted) {
       return false;
     }
@@ -102,7 +113,8 @@ class FrictionEstimate {
       if (elsewhere) {
         contradicted_ = true;
         variance_.stiffness = limited(numeric::max(variance_.stiffness, parameters_.stiffness));
-        variance_.gain = limited(numeric::max(variance_.gain, parameters_.gain) + whole);
+        variance_.gain = limited(numeric::max(variance_.gain, parameters_.gain) +
+                                 numeric::max(whole, unknown_gain()));
       }
     }
     const Scalar bent = changed ? times(reading.slope.stiffness, numeric::twice(square)) : Scalar{};
@@ -139,6 +151,8 @@ class FrictionEstimate {
   static Scalar dot(const Each& a, const Each& b) {
     return times(a.force, b.force) + times(a.stiffness, b.stiffness) + times(a.gain, b.gain);
   }
+  /// Variance of ln g where its start is contradicted.
+  static constexpr Scalar unknown_gain() { return numeric::from_real<Scalar>(1.0 / 64.0); }
   static Scalar limited(Scalar variance) { return numeric::min(variance, most_variance()); }
 
   /// P h

@@ -61,6 +61,7 @@ class TrackedConstants {
         estimate_(parameters.start) {}
 
   void restart() {
+    estimate_.restart();
     forget();
     drift_.begin(Scalar{});
     again_ = false;
@@ -78,12 +79,15 @@ class TrackedConstants {
 
   /// The same. Fc may have changed since the last reading as much as it did before it, or as the request
   /// has moved since, or by less than a reading shows; and the error of the map may be one of Fc. Where
-  /// readings contradict what was known of Kt and g, neither is sure.
+  /// readings contradict what was known of Kt and g, neither is sure, nor is Fc to 1.6 % until four readings
+  /// after the dip have told whether it drifts.
   /// @param moved  by which the request has moved, half of it over itself
   Each variance(Scalar moved) const {
     Each all = estimate_.variance();
     if (estimate_.contradicted()) {
+      constexpr Scalar drift = numeric::from_real<Scalar>(1.0 / 4096.0);
       all.stiffness = all.gain = Estimate::most_variance();
+      all.force = fresh_ > 0 ? all.force + drift : all.force;
     }
     if (fresh_ > 0) {
       all.force = all.force + Drift::square_of_twice(numeric::twice(shown_));
@@ -97,7 +101,7 @@ class TrackedConstants {
   bool compare(const Complete& reading) {
     constexpr Scalar near_one = numeric::from_real<Scalar>(0.49);
     wanted_ = reading.dips || reading.elsewhere || base_ == Base::none;
-    tests_map_ = wanted_ && reading.mapped < near_one;
+    tests_map_ = (wanted_ || base_ == Base::first) && reading.mapped < near_one;
     reading_.innovation = half_log(reading.measured, reading.mapped);
     if (base_ == Base::first) {
       base_ = Base::known;
@@ -240,7 +244,7 @@ class TrackedConstants {
 
   /// What readings have told of the constants.
   void forget() {
-    estimate_.restart();
+    estimate_.forget();
     contact_ = unity();
     inverse_gain_ = unity();
     base_ = Base::none;
@@ -280,7 +284,7 @@ class TrackedConstants {
   Base base_ = Base::none;
   bool wanted_ = false;
   bool tests_map_ =
-      false;  ///< the reading is the first one at another request, and depends on Kt and g
+      false;  ///< the reading is one of the first at a request, and depends on Kt and g
   std::uint8_t fresh_ = 0;  ///< of the readings since the last dip, those that are still to come
   bool again_ = false;      ///< all is learnt again, because it drifted while it was learnt
 };

@@ -92,11 +92,13 @@ const std::vector<BrokenScene> broken_scenes = {
      "17:12: controller.friction: \"tracked\" needs a friction force below 2 % of the largest drive "
      "force; allowed: \"trusted\", \"calibrated\""},
     {"tracked_at_resonance", resonant_loop, "\"resonant\"", "\"resonant\"\nfriction = \"tracked\"",
-     "22:12: controller.friction: \"tracked\" is for a drive that is fed forward; allowed with "
-     "controller.vibration = \"resonant\": \"trusted\", \"calibrated\""},
+     "22:12: controller.friction: \"tracked\" compares the force with the ratio that the amplitude is fed "
+     "forward for, and with controller.vibration = \"resonant\" an observer moves the amplitude; allowed: "
+     "\"trusted\", \"calibrated\", or no controller.vibration"},
     {"tracked_and_damped", damped_loop, "\"damped\"", "\"damped\"\nfriction = \"tracked\"",
-     "19:12: controller.friction: \"tracked\" is for a drive that is fed forward; allowed with "
-     "controller.vibration = \"damped\": \"trusted\", \"calibrated\""},
+     "19:12: controller.friction: \"tracked\" compares the force with the ratio that the amplitude is fed "
+     "forward for, and with controller.vibration = \"damped\" an observer moves the amplitude; allowed: "
+     "\"trusted\", \"calibrated\", or no controller.vibration"},
     // Names
     {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
      "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},
@@ -399,7 +401,7 @@ const std::vector<BrokenScene> broken_scenes = {
      "\"cosine\""},
     {"damped_under_a_ramp", damped_loop, "[run]", "interpolation = \"linear\"\n[run]",
      "14:17: drive.interpolation: \"linear\" is not for controller.vibration = \"damped\", whose "
-     "observer foresees amplitudes that change at once; allowed: \"step\""},
+     "observer foresees amplitudes that change at once; allowed: \"step\", or no controller.vibration"},
     {"damped_force_factor_of_a_force", damped_loop, "vibration = \"velocity\"\n",
      "vibration = \"velocity\"\n[model_error]\nforce_factor = 1.1\n",
      "23:1: model_error.force_factor: not used without a [transducer]; remove it"},

@@ -84,6 +84,33 @@ TEST(TrackedFriction, FindsAForceFactorThatIsAQuarterOff) {
   }
 }
 
+/// Mass and stiffness that are off by one factor act as a drive that is off by it: the natural mode stays.
+TEST(TrackedFriction, HoldsEveryConstantBesideAGainThatIsFifteenPercentOff) {
+  for (const std::string& arithmetic : arithmetics) {
+    for (const char* gain : {"0.85", "1.15"}) {
+      for (const char* stiffness : {"1.5", "1", "0.5"}) {
+        const nlohmann::json summary =
+            summary_of("target_step",
+                       tracked({"controller.arithmetic=" + arithmetic, "run.record=[]",
+                                "run.settling_band=0.02", std::string("model_error.mass=") + gain,
+                                std::string("model_error.stiffness=") + gain,
+                                std::string("model_error.contact_stiffness=") + stiffness}));
+        expect_no_fault(summary);
+        const std::string loop = arithmetic + " " + gain + " " + stiffness + " ";
+        for (const Step& step : steps_of(summary)) {
+          EXPECT_TRUE(step.settling_time_s) << loop;
+        }
+        EXPECT_NEAR(steps_of(summary).back().steady_error, 0.0, 0.001) << loop;
+        const nlohmann::json& friction = summary.at("control").at("friction");
+        EXPECT_TRUE(holds(friction.at("Fc_N"), 0.01962)) << loop << friction;
+        EXPECT_LT(friction.at("Fc_N").at("high_95"), 0.01962 * 1.05) << loop;
+        EXPECT_TRUE(holds(friction.at("contact_stiffness_N_per_m"), 0.056e6)) << loop << friction;
+        EXPECT_TRUE(holds(friction.at("gain"), std::stod(gain))) << loop << friction;
+      }
+    }
+  }
+}
+
 TEST(TrackedFriction, HoldsTheTrueRatioFiveMillisecondsAfterAJump) {
   for (const std::string& arithmetic : arithmetics) {
     for (const char* jumped : {"0.15", "0.05"}) {

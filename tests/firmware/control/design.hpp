@@ -1,6 +1,7 @@
 /// Controllers for the tests: compositions of parts, and numbers for them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <type_traits>
@@ -134,7 +135,7 @@ void fill(const Design& design, typename FrictionTracking<S>::Parameters& parame
       variance(design.tracking_certain),
       static_cast<std::uint16_t>(4 *
                                  (design.tracking_wait_periods + design.tracking_average_periods)),
-      numeric::from_real<S>(1.0 - 3.0 * design.gain_deviation)};
+      numeric::from_real<S>(std::min(0.75, 1.0 - 3.0 * design.gain_deviation))};
 }
 
 template <class S>
