@@ -1,5 +1,6 @@
 #include "host_sim/studies/design/natural_mode.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "host_sim/configure/vibration/ramp_design.hpp"
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/report/step_metrics.hpp"
+#include "host_sim/scene/friction_laws.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::design {
@@ -160,8 +162,8 @@ bool is_better(const QuietDrive& a, const QuietDrive& b) {
 std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_range) {
   const configure::NominalPlant plant = configure::nominal_plant(nominal);
   const double natural = plant.natural_rad_per_s() / nominal.drive->rate_rad_per_s();
-  if (nominal.transducer || nominal.drive->waveform != scene::Waveform::cosine ||
-      !(natural < configure::slow_mode) ||
+  if (nominal.transducer || !scene::vibrates_along(nominal.friction.law) ||
+      nominal.drive->waveform != scene::Waveform::cosine || !(natural < configure::slow_mode) ||
       !(natural < configure::fastest_biased_mode(nominal.drive->delay_periods))) {
     return std::nullopt;
   }
@@ -213,13 +215,65 @@ void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
   }
 }
 
+std::string quoted(std::string_view word) {
+  return fmt::format("\"{}\"", word);
+}
+
+std::vector<SceneLine> scene_lines(const scene::Scene& stated, const RecommendedLoop& loop) {
+  const configure::RecommendedMeans& means = loop.means;
+  std::vector<SceneLine> lines;
+  if (means.ramped) {
+    const auto linear = scene::name_of(scene::interpolations, scene::Interpolation::linear);
+    lines.push_back({"drive", "interpolation", quoted(linear)});
+    lines.push_back({"drive", "codes_per_period", fmt::format("{}", configure::ramp_codes)});
+  }
+  if (means.biased) {
+    lines.push_back({"drive", "bias_limit_N", fmt::format("{:.3g}", loop.bias_limit_N)});
+  }
+  if (means.sensorless) {
+    const auto damped = scene::name_of(scene::vibration_controls, scene::VibrationControl::damped);
+    lines.push_back({"controller", "vibration", quoted(damped)});
+  }
+  lines.push_back(
+      {"controller", "friction", quoted(scene::name_of(scene::friction_sources, loop.friction))});
+  if ((means.sensorless || means.biased) &&
+      stated.controller->arithmetic == scene::Arithmetic::q15) {
+    lines.push_back({"controller", "arithmetic",
+                     quoted(scene::name_of(scene::arithmetics, scene::Arithmetic::q31))});
+  }
+  return lines;
+}
+
+/// What a scene says otherwise than its recommended loop.
+std::vector<std::string> contradicting_keys(const scene::Scene& stated,
+                                            const RecommendedLoop& loop) {
+  const scene::Controller& controller = *stated.controller;
+  std::vector<std::string> keys;
+  if (controller.shaping && *controller.shaping != scene::Shaping::notch) {
+    keys.emplace_back("controller.shaping");
+  }
+  const bool calibrates = controller.calibration_s.value_or(0.0) > 0.0;
+  if (calibrates && loop.friction != scene::FrictionSource::calibrated) {
+    keys.emplace_back("controller.calibration_s");
+  }
+  if (controller.relearn_every_s && loop.friction == scene::FrictionSource::tracked) {
+    keys.emplace_back("controller.relearn_every_s");
+  }
+  return keys;
+}
+
+bool names_no_means(const scene::Scene& stated) {
+  return stated.drive->interpolation == scene::Interpolation::step &&
+         !(stated.drive->bias_limit_N > 0.0) && !stated.controller->vibration;
+}
+
 /// @param nominal  a trial at the scene's carrier
 RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nominal,
                                  double stiffness_range) {
   const configure::NominalPlant plant = configure::nominal_plant(nominal);
   const double natural = plant.natural_rad_per_s() / nominal.drive->rate_rad_per_s();
   RecommendedLoop found;
-  found.means = configure::recommended_means(natural, true);
+  found.means = configure::recommended_means(natural, scene::vibrates_along(stated.friction.law));
   if (found.means.biased) {
     found.bias_limit_N =
         configure::wanted_bias_N(plant.friction_N, nominal.drive->max_force_amplitude_N, natural,
@@ -232,6 +286,9 @@ RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nomina
   } catch (const configure::ConfigurationError& error) {
     found.refused = error.what();
   }
+  found.lines = scene_lines(stated, found);
+  found.leaves = contradicting_keys(stated, found);
+  found.unnamed = names_no_means(stated);
   return found;
 }
 
@@ -261,10 +318,8 @@ bool has_model_error(const scene::Scene& scene) {
 std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
                                                    const std::vector<double>& ratios,
                                                    double sliding_m_per_s) {
-  const bool vibrates_along = !scene::is<scene::laws::TransverseCoulomb>(stated.friction.law) &&
-                              !scene::is<scene::laws::NormalCoulomb>(stated.friction.law);
   const double critical = 2.0 * std::sqrt(stated.plant.stiffness_N_per_m * stated.plant.mass_kg);
-  if (stated.resonant() || !vibrates_along || !(stated.plant.damping_N_s_per_m < critical)) {
+  if (stated.resonant() || !(stated.plant.damping_N_s_per_m < critical)) {
     return std::nullopt;
   }
   const scene::Scene scene = fed_forward(stated);

@@ -44,6 +44,13 @@ struct BiasedDrive {
   Tally plants = {};     ///< at the scene's carrier
 };
 
+/// A line of a scene's table.
+struct SceneLine {
+  std::string table;
+  std::string key;
+  std::string value;  ///< as TOML has it
+};
+
 /// The loop that reaches the most with the force sensor alone, by the nominal mode.
 struct RecommendedLoop {
   configure::RecommendedMeans means;
@@ -52,6 +59,10 @@ struct RecommendedLoop {
   double bias_limit_N = 0.0;           ///< with a bias
   Tally plants = {};                   ///< at the scene's carrier, with a friction that is known
   std::string refused;                 ///< why the scene can have no such loop; empty: it can
+  std::vector<SceneLine> lines;        ///< of a scene with this loop
+  std::vector<std::string>
+      leaves;            ///< keys of the scene that contradict it, such as "controller.shaping"
+  bool unnamed = false;  ///< the scene has none of the keys of such means
 };
 
 struct NaturalModeStudy {
@@ -78,7 +89,8 @@ struct NaturalModeStudy {
 
 inline constexpr int prompt_periods = 60;  ///< a millisecond at 60 kHz
 
-/// Of a loop off resonance whose plant has a natural mode; else none.
+/// Of a loop off resonance whose plant has a natural mode; else none. Under a law whose vibration is across the
+/// sliding, the swing of the ratio is that of one along it.
 /// @param stated  as the controller knows it
 /// @param ratios  targets, in (0, 1)
 std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,

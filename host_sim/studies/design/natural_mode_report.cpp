@@ -106,37 +106,63 @@ Advice controller_advice(const NaturalModeStudy& mode) {
   const QuietDrive& best = mode.drives[mode.best_drive];
   const std::string found = fmt::format("{} ({}): of {}, {}.", word(best), means(best), tried(mode),
                                         tally_text(best.plants));
+  const bool shown = mode.recommended_loop.means.kind != configure::ModeKind::across;
   if (best.plants.never == 0) {
     return {
         "Controller",
         fmt::format("The cheapest that holds this plant feeds the drive forward with {} It needs "
-                    "no observer of the mode (controller.vibration = \"damped\", 1158 to 2633 "
-                    "instructions a period and 26 kB without a vibration sensor).",
-                    found)};
+                    "no observer of the mode{}.",
+                    found,
+                    shown ? " (controller.vibration = \"damped\", 1158 to 2633 instructions a "
+                            "period and 26 kB without a vibration sensor)"
+                          : "")};
   }
-  return {
-      "Controller",
-      fmt::format("The best that feeds the drive forward has {} For the others use another "
-                  "carrier, or controller.vibration = \"damped\", best with a vibration sensor; "
-                  "without one its observer takes 1158 to 2633 instructions a period and 26 kB.",
-                  found)};
+  return {"Controller",
+          fmt::format("The best that feeds the drive forward has {} For the others use another "
+                      "carrier, or controller.vibration = \"damped\"{}.",
+                      found,
+                      shown ? ", best with a vibration sensor; without one its observer takes 1158 "
+                              "to 2633 instructions a period and 26 kB"
+                            : " with a vibration sensor")};
 }
 
 std::string keys(const RecommendedLoop& loop) {
   std::vector<std::string> all;
-  if (loop.means.ramped) {
-    all.emplace_back(fmt::format("drive.interpolation = \"linear\", drive.codes_per_period = {}",
-                                 configure::ramp_codes));
+  for (const SceneLine& line : loop.lines) {
+    all.push_back(fmt::format("{}.{} = {}", line.table, line.key, line.value));
   }
-  if (loop.means.biased) {
-    all.emplace_back(fmt::format("drive.bias_limit_N = {:.3g}", loop.bias_limit_N));
-  }
-  if (loop.means.sensorless) {
-    all.emplace_back("controller.vibration = \"damped\"");
-  }
-  all.emplace_back(fmt::format("controller.friction = \"{}\"",
-                               scene::name_of(scene::friction_sources, loop.friction)));
   return fmt::format("{}", fmt::join(all, ", "));
+}
+
+std::string line_text(const SceneLine& line) {
+  return fmt::format("{} = {}", line.key, line.value);
+}
+
+/// The lines of each table, in their order.
+std::vector<std::pair<std::string, std::vector<std::string>>> lines_by_table(
+    const RecommendedLoop& loop) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> tables;
+  for (const SceneLine& line : loop.lines) {
+    if (tables.empty() || tables.back().first != line.table) {
+      tables.emplace_back(line.table, std::vector<std::string>{});
+    }
+    tables.back().second.push_back(line_text(line));
+  }
+  return tables;
+}
+
+/// What to write into a scene that has none of the recommended means.
+Advice keys_advice(const RecommendedLoop& loop) {
+  std::string sentence =
+      "The scene has none of drive.interpolation, drive.bias_limit_N and controller.vibration. Write";
+  for (const auto& [table, lines] : lines_by_table(loop)) {
+    sentence += fmt::format(" below [{}]: {};", table, fmt::join(lines, "; "));
+  }
+  sentence.back() = '.';
+  if (!loop.leaves.empty()) {
+    sentence += fmt::format(" Remove {}.", fmt::join(loop.leaves, ", "));
+  }
+  return {"Keys", sentence};
 }
 
 /// Which loop reaches the most with the force sensor alone.
@@ -245,7 +271,12 @@ output::Table drives_table(const NaturalModeStudy& mode) {
 }  // namespace
 
 std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
-  std::vector<Advice> all = {mode_advice(mode), recommended_advice(mode), controller_advice(mode)};
+  std::vector<Advice> all = {mode_advice(mode), recommended_advice(mode)};
+  const RecommendedLoop& loop = mode.recommended_loop;
+  if (loop.unnamed && loop.refused.empty()) {
+    all.push_back(keys_advice(loop));
+  }
+  all.push_back(controller_advice(mode));
   if (mode.bias) {
     all.push_back(bias_advice(mode));
   }
@@ -312,7 +343,13 @@ ordered_json to_json(const NaturalModeStudy& mode) {
       {"friction", scene::name_of(scene::friction_sources, loop.friction)},
       {"settled", loop.plants.settled},
       {"late", loop.plants.late},
-      {"never", loop.plants.never}};
+      {"never", loop.plants.never},
+      {"write", ordered_json::object()},
+      {"remove", loop.leaves},
+      {"refused", loop.refused}};
+  for (const auto& [table, lines] : lines_by_table(loop)) {
+    json["recommended_loop"]["write"][table] = lines;
+  }
   if (mode.bias) {
     json["bias"] = {{"limit_N", mode.bias->limit_N},
                     {"settled", mode.bias->plants.settled},

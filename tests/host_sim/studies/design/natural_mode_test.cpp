@@ -14,6 +14,7 @@
 namespace sonoglide::design::natural_mode_test {
 namespace {
 
+using steady::normal;
 using steady::table_1;
 using steady::transverse;
 
@@ -134,11 +135,46 @@ TEST(NaturalModeTest, TakesTheToleranceOfTheScene) {
   EXPECT_NEAR(found.stiffness_range, 0.02, 3e-4);
 }
 
-TEST(NaturalModeTest, IsOfNoLoopAtResonanceAndOfNoVibrationAcrossTheSliding) {
+TEST(NaturalModeTest, IsOfNoLoopAtResonance) {
   scene::Scene followed = table_1();
   followed.controller->vibration = scene::VibrationControl::resonant;
   EXPECT_FALSE(natural_mode_study(followed, {0.5}, sliding_m_per_s));
-  EXPECT_FALSE(natural_mode_study(transverse(), {0.5}, sliding_m_per_s));
+}
+
+TEST(NaturalModeTest, RecommendsARampForAVibrationThatTheFrictionDoesNotShow) {
+  for (const scene::Scene& scene : {transverse(), normal()}) {
+    const NaturalModeStudy found = study_of(scene);
+    const RecommendedLoop& loop = found.recommended_loop;
+    EXPECT_EQ(loop.means.kind, configure::ModeKind::across);
+    EXPECT_TRUE(loop.means.ramped);
+    EXPECT_EQ(loop.refused, "");
+    EXPECT_EQ(loop.plants.settled + loop.plants.late + loop.plants.never, found.plants);
+    EXPECT_FALSE(found.bias);
+  }
+  EXPECT_EQ(study_of(transverse()).recommended_loop.plants.never, 0U);
+}
+
+TEST(NaturalModeTest, TellsTheLinesThatASceneLacks) {
+  const auto lines_of = [](const RecommendedLoop& loop) {
+    std::string all;
+    for (const SceneLine& line : loop.lines) {
+      all += line.table + "." + line.key + " = " + line.value + "\n";
+    }
+    return all;
+  };
+  scene::Scene scene = table_1();
+  scene.controller->arithmetic = scene::Arithmetic::q15;
+  scene.controller->shaping = scene::Shaping::robust;
+  scene.controller->calibration_s = 0.5e-3;
+  const RecommendedLoop other = study_of(scene).recommended_loop;
+  EXPECT_TRUE(other.unnamed);
+  EXPECT_EQ(lines_of(other),
+            "controller.vibration = \"damped\"\ncontroller.friction = \"calibrated\"\n"
+            "controller.arithmetic = \"q31\"\n");
+  EXPECT_EQ(other.leaves, std::vector<std::string>{"controller.shaping"});
+  scene.controller->vibration = scene::VibrationControl::damped;
+  scene.controller->arithmetic = scene::Arithmetic::q31;
+  EXPECT_FALSE(study_of(scene).recommended_loop.unnamed);
 }
 
 TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
@@ -161,7 +197,7 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   NaturalModeStudy mistaken = *study.natural_mode;
   mistaken.model_error = true;
   EXPECT_NE(
-      natural_mode_advice(mistaken).at(2).sentence.find("on top of the scene's [model_error]"),
+      natural_mode_advice(mistaken).at(3).sentence.find("on top of the scene's [model_error]"),
       std::string::npos);
   EXPECT_TRUE(
       says("Controller: The best that feeds the drive forward has drive.interpolation = "
@@ -172,9 +208,18 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       "drive.codes_per_period = 8, controller.friction = \"calibrated\": the ramp hardly excites "
       "the mode, whatever the stiffness. Of 8 plants"))
       << text;
+  EXPECT_TRUE(
+      says("Keys: The scene has none of drive.interpolation, drive.bias_limit_N and "
+           "controller.vibration. Write below [drive]: interpolation = \"linear\"; "
+           "codes_per_period = 8; below [controller]: friction = \"calibrated\".\n"))
+      << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
   const auto json = to_json(study)["natural_mode"];
   EXPECT_EQ(json["drives"][1]["quieted_by"], "ramp");
+  const auto& written = json["recommended_loop"]["write"];
+  EXPECT_EQ(written["drive"][0], "interpolation = \"linear\"");
+  EXPECT_EQ(written["controller"][0], "friction = \"calibrated\"");
+  EXPECT_TRUE(json["recommended_loop"]["remove"].empty());
   EXPECT_EQ(json["carriers"].size(), study.natural_mode->carriers.size());
 }
 
