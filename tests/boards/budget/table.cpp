@@ -108,6 +108,8 @@ const std::vector<Feature>& features() {
       {"robust notch", "five_taps", "no_shaping", "limits/notch_shaper.hpp", "NotchShaper"},
       {"feedback", "no_shaping", "no_feedback", "feedback/integral_regulator.hpp",
        "IntegralRegulator"},
+      {"adaptive gain", "adaptive_gain", "constant_gain", "feedback/adaptive_regulator.hpp",
+       "AdaptiveRegulator"},
       {"calibration", "every_part", "no_calibration", "friction/learnt_friction.hpp",
        "LearntFriction"},
       {"relearning", "relearning", "every_part", "friction/periodic_relearning.hpp",
