@@ -101,41 +101,79 @@ function(sonoglide_check_headers target folder headers)
   endif()
 endfunction()
 
-# sonoglide_test(<name> [OPTIMISED] [CHECK] SOURCES <files>... USES <targets>... [CHECKED <tests>...]
-#   [LONG <tests>...]): one GoogleTest program. For ctest it is one test, so that a suite computes once
-# what its tests look at. An OPTIMISED one would compute for longer at -O0 than it takes to compile at
-# -O1. A CHECK is left to tools/check, and so are CHECKED tests of another. The sanitizers leave out
-# LONG tests, which compute for minutes under them on paths that others take, and CHECKED ones.
+# sonoglide_joint_tests(<program>): the program of the tests that are added from here on, in this folder and
+# those inside. What they include is compiled once for some thirty files, not once a test: a third of the
+# time. It runs those of a test alone, by the files that hold them.
+function(sonoglide_joint_tests program)
+  add_executable(${program} "${PROJECT_SOURCE_DIR}/tests/joint_main.cpp")
+  target_link_libraries(${program} PRIVATE sonoglide_warnings GTest::gtest)
+  sonoglide_compile_test(${program})
+  set_target_properties(${program} PROPERTIES UNITY_BUILD_BATCH_SIZE 30)
+  set(SONOGLIDE_JOINT_TESTS ${program} PARENT_SCOPE)
+endfunction()
+
+function(sonoglide_compile_test program)
+  sonoglide_optimise(-O0 ${program})
+  target_precompile_headers(${program} REUSE_FROM sonoglide_test_headers)
+  sonoglide_unite(${program})
+endfunction()
+
+# sonoglide_test(<name> [ALONE] [OPTIMISED] [CHECK] SOURCES <files>... USES <targets>...
+#   [DEFINES <definitions>...] [CHECKED <tests>...] [LONG <tests>...]): tests of GoogleTest. For ctest they
+# are one test, so that a suite computes once what its tests look at. They are a program of their own where
+# they are ALONE, OPTIMISED or a CHECK, or no joint one is there. OPTIMISED ones would compute for longer at
+# -O0 than they take to compile at -O1. A CHECK is left to tools/check, and so are CHECKED tests of another.
+# The sanitizers leave out LONG tests, which compute for minutes under them on paths that others take, and
+# CHECKED ones.
 function(sonoglide_test name)
-  cmake_parse_arguments(TEST "OPTIMISED;CHECK" "" "SOURCES;USES;CHECKED;LONG" ${ARGN})
-  add_executable(${name} ${TEST_SOURCES})
-  target_link_libraries(${name} PRIVATE ${TEST_USES} sonoglide_warnings GTest::gtest_main)
-  if(TEST_OPTIMISED)
-    sonoglide_optimise(-O1 ${name})
-    sonoglide_optimise_sanitized(${name})
-  else()
-    sonoglide_optimise(-O0 ${name})
-    target_precompile_headers(${name} REUSE_FROM sonoglide_test_headers)
+  cmake_parse_arguments(TEST "ALONE;OPTIMISED;CHECK" "" "SOURCES;USES;DEFINES;CHECKED;LONG" ${ARGN})
+  set(left_out OFF)
+  if(SONOGLIDE_SANITIZE AND TEST_LONG STREQUAL "*"
+      OR TEST_CHECK AND NOT SONOGLIDE_CHECK AND NOT SONOGLIDE_SANITIZE)
+    set(left_out ON)
   endif()
-  sonoglide_unite(${name})
+  if(SONOGLIDE_JOINT_TESTS AND NOT TEST_ALONE AND NOT TEST_OPTIMISED AND NOT TEST_CHECK)
+    if(left_out)
+      return()
+    endif()
+    set(program ${SONOGLIDE_JOINT_TESTS})
+    list(TRANSFORM TEST_SOURCES PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+    target_sources(${program} PRIVATE ${TEST_SOURCES})
+    list(JOIN TEST_SOURCES ":" files)
+    set(files "--files=${files}")
+    add_custom_target(${name} ALL)
+    add_dependencies(${name} ${program})
+  else()
+    set(program ${name})
+    set(files "")
+    add_executable(${name} ${TEST_SOURCES})
+    target_link_libraries(${name} PRIVATE sonoglide_warnings GTest::gtest_main)
+    if(TEST_OPTIMISED)
+      sonoglide_optimise(-O1 ${name})
+      sonoglide_optimise_sanitized(${name})
+      sonoglide_unite(${name})
+    else()
+      sonoglide_compile_test(${name})
+    endif()
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ${left_out})
+  endif()
+  target_link_libraries(${program} PRIVATE ${TEST_USES})
+  target_compile_definitions(${program} PRIVATE ${TEST_DEFINES})
+  if(left_out)
+    return()
+  endif()
   if(NOT SONOGLIDE_SANITIZE)
     set(TEST_LONG "")
-  elseif(TEST_LONG STREQUAL "*")
-    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
-    return()
-  endif()
-  if(TEST_CHECK AND NOT SONOGLIDE_CHECK AND NOT SONOGLIDE_SANITIZE)
-    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
-    return()
   endif()
   list(JOIN TEST_CHECKED ":" checked)
   list(JOIN TEST_LONG ":" long)
-  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 "--gtest_filter=-${checked}:${long}")
+  add_test(NAME ${name} COMMAND ${program} ${files} --gtest_brief=1 "--gtest_filter=-${checked}:${long}")
   if(TEST_CHECK)
     set_tests_properties(${name} PROPERTIES LABELS check)
   endif()
   if(TEST_CHECKED AND SONOGLIDE_CHECK)
-    add_test(NAME ${name}.checked COMMAND ${name} --gtest_brief=1 "--gtest_filter=${checked}")
+    add_test(NAME ${name}.checked
+      COMMAND ${program} ${files} --gtest_brief=1 "--gtest_filter=${checked}")
     set_tests_properties(${name}.checked PROPERTIES LABELS check)
   endif()
 endfunction()

@@ -1,0 +1,53 @@
+// The program of several tests of ctest: --files=a.cpp:b.cpp runs only what these files hold.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace {
+
+std::set<std::string> files_of(std::string_view option) {
+  constexpr std::string_view name = "--files=";
+  std::set<std::string> files;
+  if (option.substr(0, name.size()) != name) {
+    return files;
+  }
+  option.remove_prefix(name.size());
+  while (!option.empty()) {
+    const std::size_t end = std::min(option.find(':'), option.size());
+    files.emplace(option.substr(0, end));
+    option.remove_prefix(std::min(end + 1, option.size()));
+  }
+  return files;
+}
+
+/// A pattern for each test of another file.
+std::string all_but(const std::set<std::string>& files) {
+  std::string patterns;
+  const testing::UnitTest& all = *testing::UnitTest::GetInstance();
+  for (int i = 0; i < all.total_test_suite_count(); ++i) {
+    const testing::TestSuite& suite = *all.GetTestSuite(i);
+    for (int k = 0; k < suite.total_test_count(); ++k) {
+      const testing::TestInfo& test = *suite.GetTestInfo(k);
+      if (files.count(test.file()) == 0) {
+        patterns += std::string(":") + suite.name() + "." + test.name();
+      }
+    }
+  }
+  return patterns;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  if (argc > 1) {
+    const std::string filter = GTEST_FLAG_GET(filter);
+    const bool excludes = filter.find('-') != std::string::npos;
+    GTEST_FLAG_SET(filter, filter + (excludes ? "" : "-") + all_but(files_of(argv[1])));
+  }
+  return RUN_ALL_TESTS();
+}
