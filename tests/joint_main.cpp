@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -25,17 +26,28 @@ std::set<std::string> files_of(std::string_view option) {
 }
 
 /// A pattern for each test of another file.
+/// @throws std::logic_error  such a test has the name of one that is to run, or the files hold none
 std::string all_but(const std::set<std::string>& files) {
-  std::string patterns;
+  std::set<std::string> others;
+  std::set<std::string> wanted;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
   for (int i = 0; i < all.total_test_suite_count(); ++i) {
     const testing::TestSuite& suite = *all.GetTestSuite(i);
     for (int k = 0; k < suite.total_test_count(); ++k) {
       const testing::TestInfo& test = *suite.GetTestInfo(k);
-      if (files.count(test.file()) == 0) {
-        patterns += std::string(":") + suite.name() + "." + test.name();
-      }
+      auto& names = files.count(test.file()) == 0 ? others : wanted;
+      names.insert(std::string(suite.name()) + "." + test.name());
     }
+  }
+  if (wanted.empty()) {
+    throw std::logic_error("no test of this program is in these files");
+  }
+  std::string patterns;
+  for (const std::string& name : others) {
+    if (wanted.count(name) != 0) {
+      throw std::logic_error("two tests of this program are called " + name);
+    }
+    patterns += ":" + name;
   }
   return patterns;
 }

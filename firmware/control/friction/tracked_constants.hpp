@@ -164,8 +164,7 @@ class TrackedConstants {
   }
 
   /// A reading that is no jump, because Kt and g may be another by as much, is one of a drift.
-  /// @param dips   whether the reading is one of a dip
-  /// @param moved  periods in which the request moved before the reading, over 256
+  /// `dips`: the reading is one of a dip. `moved`: periods in which the request moved before it, over 256.
   /// @return true: the reading is to be learnt from, else judged
   bool weigh(bool dips, Scalar moved) {
     if (led(dips)) {

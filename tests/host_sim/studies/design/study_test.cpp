@@ -73,7 +73,7 @@ TEST(MakeTaskTest, DeniesWhatHasNoSteadyVibration) {
   expect_denied(scene, "sliding.velocity_m_per_s");
 }
 
-TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
+TEST(DesignStudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
   double told = 0.0;
   const DesignStudy found = study(task_of(table_1(), {0.3, 0.7}, SpeedRange{0.01, 0.1}),
                                   [&](double fraction) { told = fraction; });
@@ -94,7 +94,7 @@ TEST(StudyTest, HasEveryRatioAtBothEndsOfTheSpeeds) {
   EXPECT_EQ(found.detunings.size(), 2U);
 }
 
-TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
+TEST(DesignStudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
   const DesignStudy found = study(task_of(table_1(), {0.5}, {}), [](double) {});
   ASSERT_EQ(found.points.size(), 1U);
   EXPECT_NEAR(found.curves[0].requirements.front().sliding_m_per_s, 0.002672, 1e-12);
@@ -103,13 +103,13 @@ TEST(StudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
 }
 
 // A row, and not the end of the study.
-TEST(StudyTest, GoesOnWhereAnOrbitRepels) {
+TEST(DesignStudyTest, GoesOnWhereAnOrbitRepels) {
   const DesignStudy found = study(task_of(heavy_contact(2000.0), {0.9}, {}), [](double) {});
   ASSERT_EQ(found.points.size(), 1U);
   EXPECT_EQ(found.points[0].requirement.limit, steady::Obstacle::unstable);
 }
 
-TEST(StudyTest, FailsWhereNothingCanBeSaid) {
+TEST(DesignStudyTest, FailsWhereNothingCanBeSaid) {
   scene::Scene free = table_1();
   free.plant.stiffness_N_per_m = 0.0;
   EXPECT_THROW(study(task_of(free, {}, {}), [](double) {}), loop::ComputationError);

@@ -15,7 +15,7 @@ bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-TEST(RecordTest, KeepsEveryBit) {
+TEST(RobustRowTest, KeepsEveryBit) {
   EXPECT_TRUE(rc::check([](std::size_t place, double a, double b, std::uint64_t hash) {
     Record record{place, {}};
     record.row.overshoot = a;

@@ -22,10 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class StudyTest : public testing::Test {
+class RobustStudyTest : public testing::Test {
  protected:
-  StudyTest() { fs::create_directories(folder_); }
-  ~StudyTest() override { fs::remove_all(folder_); }
+  RobustStudyTest() { fs::create_directories(folder_); }
+  ~RobustStudyTest() override { fs::remove_all(folder_); }
 
   /// Both tables.
   std::string tables(const Task& task, const Study& study) const {
@@ -49,7 +49,7 @@ class StudyTest : public testing::Test {
   fs::path folder_ = fs::path(testing::TempDir()) / ("robust_" + std::to_string(getpid()));
 };
 
-TEST_F(StudyTest, RowsAreTheSameForAnyNumberOfThreads) {
+TEST_F(RobustStudyTest, RowsAreTheSameForAnyNumberOfThreads) {
   const Task task({"s.toml", uncertain_step}, {}, {40, 60, 3});
   const std::string one = tables(task, solve(task, 1));
   EXPECT_EQ(one, tables(task, solve(task, 2)));
@@ -57,7 +57,7 @@ TEST_F(StudyTest, RowsAreTheSameForAnyNumberOfThreads) {
 }
 
 /// The journal cut at any of its lines, or within one, gives the same rows again.
-TEST_F(StudyTest, GoesOnWhereItWasKilled) {
+TEST_F(RobustStudyTest, GoesOnWhereItWasKilled) {
   const Task task({"s.toml", uncertain_step}, {"run.duration_s=2e-4"}, {12, 40, 3});
   const std::string whole = tables(task, solve(task));
   std::ifstream stream(journal(), std::ios::binary);
@@ -78,7 +78,7 @@ TEST_F(StudyTest, GoesOnWhereItWasKilled) {
 
 /// The ripple that the notch leaves grows with the error of the stiffness, to either side: the worst
 /// plant is at an end, which a grid over the tolerance tells.
-TEST_F(StudyTest, FindsTheWorstPlantInATenthOfTheRunsOfRandomSampling) {
+TEST_F(RobustStudyTest, FindsTheWorstPlantInATenthOfTheRunsOfRandomSampling) {
   const std::string text = target_step + "[tolerance]\n\"plant.stiffness_N_per_m\" = 0.04\n";
   const Task task({"s.toml", text}, {}, {16, 48, 1});
   const Study study = solve(task, 2);
@@ -100,7 +100,7 @@ TEST_F(StudyTest, FindsTheWorstPlantInATenthOfTheRunsOfRandomSampling) {
   EXPECT_LE(study.samples.size() + study.search.size(), 200U);
 }
 
-TEST_F(StudyTest, ItsFiguresAreThoseOfItsRows) {
+TEST_F(RobustStudyTest, ItsFiguresAreThoseOfItsRows) {
   const Task task({"s.toml", uncertain_step}, {"run.duration_s=5e-4"}, {50, 20, 7});
   const Study study = solve(task, 2);
   const nlohmann::ordered_json json = to_json(task, study);

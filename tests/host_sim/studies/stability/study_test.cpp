@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t scenes = 50;
 
-class StudyTest : public testing::Test {
+class StabilityStudyTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     std::string name = (fs::temp_directory_path() / "sonoglide_study_XXXXXX").string();
@@ -55,10 +55,10 @@ class StudyTest : public testing::Test {
   static StabilityStudy result_;
 };
 
-fs::path StudyTest::folder_;
-StabilityStudy StudyTest::result_;
+fs::path StabilityStudyTest::folder_;
+StabilityStudy StabilityStudyTest::result_;
 
-TEST_F(StudyTest, WritesEveryMapCell) {
+TEST_F(StabilityStudyTest, WritesEveryMapCell) {
   for (const char* name : {"stability_map.csv", "stability_map_float32.csv"}) {
     expect_cells(name,
                  {"solver", "setting", "contact_stiffness_N_per_m", "verdict", "relative_error"},
@@ -66,7 +66,7 @@ TEST_F(StudyTest, WritesEveryMapCell) {
   }
 }
 
-TEST_F(StudyTest, WritesOneRowForEachSolverAndPrecision) {
+TEST_F(StabilityStudyTest, WritesOneRowForEachSolverAndPrecision) {
   expect_cells(
       "extremes.csv",
       {"solver", "precision", "setting", "scenes", "good", "silent_imbalance",
@@ -76,7 +76,7 @@ TEST_F(StudyTest, WritesOneRowForEachSolverAndPrecision) {
       2 * solvers().size());
 }
 
-TEST_F(StudyTest, WritesTheWorstScenesWithAllTheirNumbers) {
+TEST_F(StabilityStudyTest, WritesTheWorstScenesWithAllTheirNumbers) {
   expect_cells("extremes_worst.csv",
                {"solver",
                 "precision",
@@ -104,7 +104,7 @@ TEST_F(StudyTest, WritesTheWorstScenesWithAllTheirNumbers) {
                2 * 5 * solvers().size());
 }
 
-TEST_F(StudyTest, DrawsAPanelForEachSolver) {
+TEST_F(StabilityStudyTest, DrawsAPanelForEachSolver) {
   for (const char* name : {"stability_map.svg", "stability_map_float32.svg"}) {
     const std::string picture = read(name);
     for (const TriedSolver& solver : solvers()) {
@@ -113,14 +113,14 @@ TEST_F(StudyTest, DrawsAPanelForEachSolver) {
   }
 }
 
-TEST_F(StudyTest, ThePageHoldsPicturesAndTable) {
+TEST_F(StabilityStudyTest, ThePageHoldsPicturesAndTable) {
   const std::string page = read("report.html");
   EXPECT_NE(page.find("<script type=\"application/json\">{\"title\":"), std::string::npos);
   EXPECT_NE(page.find("Extreme cases: 50 random scenes"), std::string::npos);
   EXPECT_NE(page.find("event_taylor_16"), std::string::npos);
 }
 
-TEST_F(StudyTest, TheTextNamesEverySolver) {
+TEST_F(StabilityStudyTest, TheTextNamesEverySolver) {
   const std::string text = study_text(result_.extremes);
   EXPECT_EQ(text.rfind("50 random scenes\n", 0), 0U);
   for (const TriedSolver& solver : solvers()) {

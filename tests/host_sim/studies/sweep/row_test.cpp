@@ -13,7 +13,7 @@ bool same_bits(double a, double b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-TEST(RecordTest, KeepsEveryBit) {
+TEST(SweepRowTest, KeepsEveryBit) {
   EXPECT_TRUE(rc::check("read is written", [](std::size_t point, double a, double b, double c) {
     Record record{point, {}};
     record.row.friction_ratio_whole_run = a;
@@ -38,7 +38,7 @@ TEST(RecordTest, KeepsEveryBit) {
   }));
 }
 
-TEST(RecordTest, TextsOfAnotherFormAreRefused) {
+TEST(SweepRowTest, TextsOfAnotherFormAreRefused) {
   for (const char* text : {"", "1", "x 0 0 0 0 0 0 0 0 0 0 0 0 0 ok",
                            "1 0 0 0 0 0 0 0 0 0 0 0 0 99 ok", "1 0 0 0 0 0 0"}) {
     EXPECT_FALSE(long_work::parse_record<PointResult>(text).has_value()) << text;
