@@ -59,16 +59,16 @@ void design_vibration(const scene::Scene& scene, const NominalPlant& plant, Cont
       return;
     case scene::VibrationMode::sensorless:
       design.vibration = design_sensorless(scene, plant, velocity_m_per_s);
-      design_outer_regulator(scene, SensorlessDesign::following_periods, design);
+      design_outer_regulator(scene, plant, SensorlessDesign::following_periods, design);
       design.integral_gain = 0.0;  // the observer's constant is the integral
       return;
     case scene::VibrationMode::damped:
       design.vibration = design_damping(scene, plant, velocity_m_per_s);
-      design_outer_regulator(scene, DampedDesign::following_periods, design);
+      design_outer_regulator(scene, plant, DampedDesign::following_periods, design);
       return;
     case scene::VibrationMode::resonant:
       design.vibration = design_resonance(scene, plant, velocity_m_per_s);
-      design_outer_regulator(scene, ResonantDesign::following_periods, design);
+      design_outer_regulator(scene, plant, ResonantDesign::following_periods, design);
       return;
   }
 }

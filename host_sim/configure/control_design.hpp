@@ -84,6 +84,7 @@ struct ControlDesign {
   double lead_periods = 0.0;   ///< from a sample to the middle of its effect
   double integral_gain = 0.0;  ///< per period
   std::optional<AdaptiveGain> adaptive_gain;
+  double contact_lead = 0.0;    ///< see control::ContactLead; 0: the contact is prompt
   double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per period
   std::uint8_t reference_delay_periods = 1;
   std::uint16_t hold_periods = 0;

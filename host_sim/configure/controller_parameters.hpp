@@ -7,6 +7,7 @@
 
 #include "firmware/control/controller.hpp"
 #include "firmware/control/feedback/adaptive_regulator.hpp"
+#include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
@@ -123,6 +124,16 @@ typename control::AdaptiveRegulator<Scalar, MaxDelay>::Parameters parameters(
           scaled<Scalar>(adaptive.growth),
           scaled<Scalar>(adaptive.small_error),
           adaptive.patience_periods};
+}
+
+/// Without a lead where the design has none.
+template <class Regulator>
+typename control::ContactLead<Regulator>::Parameters parameters(
+    const ControlDesign& design, Type<control::ContactLead<Regulator>> /*part*/) {
+  using Scalar = typename Regulator::Scalar;
+  return {parameters(design, Type<Regulator>{}), design.contact_lead > 0.0
+                                                     ? split<Scalar>(2.0 * design.contact_lead)
+                                                     : numeric::Split<Scalar>{}};
 }
 
 /// Without any pause where the design has none.

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "firmware/control/feedback/adaptive_regulator.hpp"
+#include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
 #include "firmware/control/force_sensing.hpp"
@@ -129,17 +130,25 @@ struct RegulatorParts {
   using Integral = control::IntegralRegulator<Scalar, max_reference_delay>;
   using Scaling = control::ScalingRegulator<Scalar, max_reference_delay>;
   using Adaptive = control::AdaptiveRegulator<Scalar, max_reference_delay>;
-  using Part = Choice<None, Integral, Scaling, Adaptive>;
+  template <class Regulator>
+  using Led = control::ContactLead<Regulator>;
+  using Part = Choice<None, Integral, Scaling, Adaptive, Led<None>, Led<Integral>, Led<Adaptive>>;
 
   static Part chosen(const ControlDesign& design) {
     if (!design.senses_force || design.integral_gain == 0.0) {
-      return Part(Type<None>{});
+      return led<None>(design);
     }
     if (design.adaptive_gain) {
-      return Part(Type<Adaptive>{});
+      return led<Adaptive>(design);
     }
     const bool scales = design.resonance() != nullptr && design.resonance()->scales;
-    return scales ? Part(Type<Scaling>{}) : Part(Type<Integral>{});
+    return scales ? Part(Type<Scaling>{}) : led<Integral>(design);
+  }
+
+ private:
+  template <class Regulator>
+  static Part led(const ControlDesign& design) {
+    return design.contact_lead > 0.0 ? Part(Type<Led<Regulator>>{}) : Part(Type<Regulator>{});
   }
 };
 

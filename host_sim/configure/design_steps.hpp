@@ -37,8 +37,8 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
 
 /// Around an inner loop that follows a small change of its velocity within so many periods; while
 /// it follows a large one the integral waits.
-void design_outer_regulator(const scene::Scene& scene, double following_periods,
-                            ControlDesign& design);
+void design_outer_regulator(const scene::Scene& scene, const NominalPlant& plant,
+                            double following_periods, ControlDesign& design);
 
 /// The slew limit holds behind the shaper, whose taps may add up.
 void design_slew(const scene::Drive& drive, ControlDesign& design);

@@ -7,7 +7,9 @@
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/design_periods.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/configure/vibration/ramp_design.hpp"
+#include "host_sim/scene/friction_laws.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -72,12 +74,32 @@ AdaptiveGain gain_that_adapts(const scene::Scene& scene, double delay) {
 }
 
 /// How long the integral waits for a changed target, and then does not.
-void set_waiting(const scene::Scene& scene, double delay, double filter, ControlDesign& design) {
-  constexpr double filter_settling = 4.0;  // time constants more: 0.7 % of a step is left
-  constexpr double rest_per_hold = 1.25;   // in which feedback acts
+/// @param lag  that the reading follows by, in periods
+void set_waiting(const scene::Scene& scene, double delay, double lag, ControlDesign& design) {
+  constexpr double lag_settling = 4.0;    // time constants more: 2 % of a step is left
+  constexpr double rest_per_hold = 1.25;  // in which feedback acts
   const double contact_settling = contact_settling_periods(scene);
-  design.hold_periods = whole_periods(delay + contact_settling + filter_settling * filter);
+  design.hold_periods = whole_periods(delay + contact_settling + lag_settling * lag);
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
+}
+
+/// The lead of a slow contact (control::ContactLead); none where it would add less than a quarter of the error at a
+/// ratio of 1, nor at resonance, where the vibration itself takes longer.
+/// @pre the gain of the integral is designed
+/// @return the time constant with which the error then decays, in periods; 0 without a lead
+double design_contact_lead(const scene::Scene& scene, const NominalPlant& plant,
+                           ControlDesign& design) {
+  constexpr double least = 0.25;
+  const bool may_be_slow = scene.sensor.force && scene::is_elastic(scene.friction.law) &&
+                           scene::vibrates_along(scene.friction.law) &&
+                           scene.vibration_mode() != scene::VibrationMode::resonant;
+  const double slid_m = scene.sliding.fastest_m_per_s() * design.scales.step_period_s();
+  if (!may_be_slow || !(least * slid_m < design.integral_gain * presliding_m(plant)) ||
+      slid_m == 0.0) {
+    return 0.0;
+  }
+  design.contact_lead = design.integral_gain * presliding_m(plant) / slid_m;
+  return 1.0 / design.integral_gain;
 }
 
 }  // namespace
@@ -135,22 +157,25 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
   found.missing_damping_N_s_per_m =
       missing_damping_N_s_per_m(found.ramped() && quiet ? found.left : ripple,
                                 !found.notch.has_value(), mode, plant.mass_kg, design);
-  set_waiting(scene, delay, filter, design);
+  const double lag = filter + design_contact_lead(scene, plant, design);
+  set_waiting(scene, delay, lag, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * shaping);
-  design.reference_keep = filter / (1.0 + filter);
+  design.reference_keep = lag / (1.0 + lag);
   const double drive_delay = scene.drive->delay_periods;
   design.lead_periods = 0.5 + 0.5 * shaping + drive_delay / design.scales.every_periods;
   return found;
 }
 
-void design_outer_regulator(const scene::Scene& scene, double following_periods,
-                            ControlDesign& design) {
+void design_outer_regulator(const scene::Scene& scene, const NominalPlant& plant,
+                            double following_periods, ControlDesign& design) {
   const double filter = filter_periods(scene, design.scales);
   const double latency = latency_periods(scene);
-  design.integral_gain = gain_behind_delay(latency + following_periods + filter);
-  set_waiting(scene, latency + following_periods, filter, design);
+  const double delay = latency + following_periods;
+  design.integral_gain = gain_behind_delay(delay + filter);
+  const double lag = filter + design_contact_lead(scene, plant, design);
+  set_waiting(scene, delay, lag, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency);
-  design.reference_keep = (filter + 1.0) / (filter + 2.0);
+  design.reference_keep = (lag + 1.0) / (lag + 2.0);
   design.lead_periods = 1.5 + scene.drive->delay_periods;
 }
 

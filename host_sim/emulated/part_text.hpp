@@ -63,6 +63,16 @@ PartText part_text(configure::Type<control::ScalingRegulator<Scalar, MaxDelay>> 
       fmt::format(", {}", parameters.delay_periods));
 }
 
+template <class Regulator, class Parameters>
+PartText part_text(configure::Type<control::ContactLead<Regulator>> /*part*/,
+                   const Parameters& parameters) {
+  PartText text = part_text(configure::Type<Regulator>{}, parameters.regulator);
+  text.headers.emplace_back(control::ContactLead<Regulator>::part_name.header);
+  text.type =
+      fmt::format("{}<control::{}>", control::ContactLead<Regulator>::part_name.type, text.type);
+  return text;
+}
+
 /// The periods of delay that a vibration is told.
 template <class Parameters>
 auto delay_of(const Parameters& parameters) -> decltype(parameters.delay) {

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "firmware/control/controller.hpp"
+#include "firmware/control/feedback/contact_lead.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/loop/control_port.hpp"
@@ -24,6 +25,10 @@ auto map_of(const ControlDesign& design) {
                         control::TabulatedFeedforward<Scalar>>>(
       static_cast<std::size_t>(design.map));
 }
+
+/// The lead of a slow contact is wide open where a scene has none.
+template <class Scalar, template <class, int> class Regulator>
+using LedRegulator = control::ContactLead<Regulator<Scalar, configure::max_reference_delay>>;
 
 /// Relearning, a target force, the current limit of a resonant loop and its scale are wide open where a scene does
 /// not name them.
@@ -46,7 +51,7 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
         using Friction = typename decltype(friction)::type;
         using Feedforward = typename decltype(feedforward)::type;
         if (design.senses_force) {
-          using Feedback = Regulator<Scalar, configure::max_reference_delay>;
+          using Feedback = LedRegulator<Scalar, Regulator>;
           return in_process<ObservedParts<Scalar, Friction, Feedforward, Feedback, Vibration,
                                           control::ForceSensor>>(design);
         }
@@ -63,12 +68,11 @@ std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
       [&](auto friction, auto feedforward) -> std::unique_ptr<ControlPort> {
-        using Parts =
-            control::Parts<Scalar, typename decltype(friction)::type,
-                           typename decltype(feedforward)::type, control::NoSlewLimit<Scalar>,
-                           control::NoShaping<Scalar>, control::NoFeedback<Scalar>,
-                           control::PeriodicRelearning<Scalar>, Vibration, control::ForceSensor,
-                           control::ForceTarget<Scalar>>;
+        using Parts = control::Parts<
+            Scalar, typename decltype(friction)::type, typename decltype(feedforward)::type,
+            control::NoSlewLimit<Scalar>, control::NoShaping<Scalar>,
+            control::ContactLead<control::NoFeedback<Scalar>>, control::PeriodicRelearning<Scalar>,
+            Vibration, control::ForceSensor, control::ForceTarget<Scalar>>;
         return in_process<Parts>(design);
       },
       parts.friction, map_of<Scalar>(design));

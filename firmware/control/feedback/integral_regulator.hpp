@@ -14,9 +14,10 @@ namespace sonoglide::control {
 /// No feedback: the target goes to the feedforward as it is.
 /// The commands are those of an IntegralRegulator with a gain
 /// of 0.
-template <class Scalar>
+template <class ScalarT>
 class NoFeedback {
  public:
+  using Scalar = ScalarT;
   static constexpr PartName part_name{"feedback/integral_regulator", "NoFeedback"};
   struct Parameters {};
 
@@ -48,9 +49,10 @@ class NoFeedback {
 /// Anti-windup by conditional integration, see accept() (Åström 1995, ../README.md).
 ///
 /// @tparam MaxDelay  largest delay_periods, >= 1; the delay line holds as many targets.
-template <class Scalar, int MaxDelay>
+template <class ScalarT, int MaxDelay>
 class IntegralRegulator {
  public:
+  using Scalar = ScalarT;
   static constexpr PartName part_name{"feedback/integral_regulator", "IntegralRegulator"};
   struct Parameters {
     Scalar gain;                 ///< per carrier period

@@ -8,6 +8,7 @@ namespace {
 ModeKind kind_of(double natural_per_carrier, bool along) {
   constexpr double beside_multiple = 0.1;
   constexpr double beside_half = 0.02;
+  constexpr double fast_mode = 3.0;
   if (!along) {
     return ModeKind::across;
   }
@@ -17,6 +18,9 @@ ModeKind kind_of(double natural_per_carrier, bool along) {
   const double nearest = std::round(natural_per_carrier);
   if (nearest >= 2.0 && std::abs(natural_per_carrier - nearest) < beside_multiple) {
     return ModeKind::multiple;
+  }
+  if (natural_per_carrier > fast_mode) {
+    return ModeKind::fast;
   }
   const double part = natural_per_carrier - std::floor(natural_per_carrier);
   return std::abs(part - 0.5) < beside_half ? ModeKind::half_turn : ModeKind::other;
@@ -43,6 +47,9 @@ std::string_view reason(ModeKind kind) {
       return "the balance keeps the mode from moving, and the observer quiets what is left";
     case ModeKind::multiple:
       return "the ramp hardly excites the mode, whatever the stiffness";
+    case ModeKind::fast:
+      return "the observer finds this mode only where the stiffness is known to 3 %, and the ramp hardly "
+             "excites it, whatever the stiffness";
     case ModeKind::half_turn:
       return "the mode turns by about half a turn a period, so that its direction of rotation cannot be "
              "observed";

@@ -12,6 +12,7 @@ enum class ModeKind {
   slowest,    ///< no reading tells the mode from the vibration, but a balance needs none
   slow,       ///< the friction itself moves the mass
   multiple,   ///< beside a multiple of the carrier
+  fast,       ///< a small part of its stiffness turns it by much in a period
   half_turn,  ///< its direction of rotation is unobservable
   other
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "firmware/control/controller.hpp"
+#include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
 #include "firmware/control/friction/learnt_friction.hpp"
@@ -20,6 +21,7 @@
 #include "firmware/control/limits/sample_inspection.hpp"
 #include "firmware/control/limits/slew_limit.hpp"
 #include "firmware/plant/strang/fixed_point_strang.hpp"
+#include "host_sim/emulated/part_text.hpp"
 
 namespace sonoglide::emulated::initialiser_test {
 namespace {
@@ -136,6 +138,30 @@ TYPED_TEST_SUITE(InitialiserOf, Scalars);
 TYPED_TEST(InitialiserOf, WritesEveryParameterOfAController) {
   using Parameters = typename control::Controller<EveryPart<TypeParam>>::Parameters;
   EXPECT_EQ((expect_every_number_in_text<TypeParam, Parameters>()), 39U);
+}
+
+TYPED_TEST(InitialiserOf, WritesTheLeadOfASlowContactAndItsRegulator) {
+  using Integral = control::IntegralRegulator<TypeParam, 4>;
+  using Alone = control::NoFeedback<TypeParam>;
+  EXPECT_EQ((expect_every_number_in_text<TypeParam,
+                                         typename control::ContactLead<Integral>::Parameters>()),
+            7U);
+  EXPECT_EQ(
+      (expect_every_number_in_text<TypeParam, typename control::ContactLead<Alone>::Parameters>()),
+      2U);
+}
+
+TEST(Initialiser, NamesTheRegulatorInALead) {
+  using Integral = control::IntegralRegulator<float, 4>;
+  typename control::ContactLead<Integral>::Parameters parameters{};
+  parameters.regulator.delay_periods = 3;
+  const PartText text = part_text(configure::Type<control::ContactLead<Integral>>{}, parameters);
+  EXPECT_EQ(text.type, "ContactLead<control::IntegralRegulator<Scalar, 3>>");
+  EXPECT_EQ(text.headers.size(), 2U);
+  EXPECT_EQ(part_text(configure::Type<control::ContactLead<control::NoFeedback<float>>>{},
+                      control::ContactLead<control::NoFeedback<float>>::Parameters{})
+                .type,
+            "ContactLead<control::NoFeedback<Scalar>>");
 }
 
 TYPED_TEST(InitialiserOf, WritesEveryTapOfARobustNotch) {

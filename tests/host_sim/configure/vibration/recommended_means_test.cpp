@@ -33,6 +33,10 @@ TEST(RecommendedMeansTest, AreTheFirstRowOfTheTableThatHolds) {
                                  {2.0, true, ModeKind::multiple, false, false, true},
                                  {2.101, true, ModeKind::other, true, false, false},
                                  {3.0001, true, ModeKind::multiple, false, false, true},
+                                 {2.51, true, ModeKind::half_turn, false, false, true},
+                                 {2.899, true, ModeKind::other, true, false, false},
+                                 {3.101, true, ModeKind::fast, false, false, true},
+                                 {3.5, true, ModeKind::fast, false, false, true},
                                  {3.95, true, ModeKind::multiple, false, false, true},
                                  {0.001, false, ModeKind::across, false, false, true},
                                  {0.81, false, ModeKind::across, false, false, true}};
