@@ -132,14 +132,14 @@ struct RegulatorParts {
   using Adaptive = control::AdaptiveRegulator<Scalar, max_reference_delay>;
   template <class Regulator>
   using Led = control::ContactLead<Regulator>;
-  using Part = Choice<None, Integral, Scaling, Adaptive, Led<None>, Led<Integral>, Led<Adaptive>>;
+  using Part = Choice<None, Integral, Scaling, Adaptive, Led<None>, Led<Integral>>;
 
   static Part chosen(const ControlDesign& design) {
     if (!design.senses_force || design.integral_gain == 0.0) {
       return led<None>(design);
     }
     if (design.adaptive_gain) {
-      return led<Adaptive>(design);
+      return Part(Type<Adaptive>{});
     }
     const bool scales = design.resonance() != nullptr && design.resonance()->scales;
     return scales ? Part(Type<Scaling>{}) : led<Integral>(design);

@@ -84,7 +84,8 @@ void set_waiting(const scene::Scene& scene, double delay, double lag, ControlDes
 }
 
 /// The lead of a slow contact (control::ContactLead); none where it would add less than a quarter of the error at a
-/// ratio of 1, nor at resonance, where the vibration itself takes longer.
+/// ratio of 1, nor at resonance, where the vibration itself takes longer. Of a drive that is fed forward it would
+/// excite a mode whose stiffness is off.
 /// @pre the gain of the integral is designed
 /// @return the time constant with which the error then decays, in periods; 0 without a lead
 double design_contact_lead(const scene::Scene& scene, const NominalPlant& plant,
@@ -157,10 +158,9 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
   found.missing_damping_N_s_per_m =
       missing_damping_N_s_per_m(found.ramped() && quiet ? found.left : ripple,
                                 !found.notch.has_value(), mode, plant.mass_kg, design);
-  const double lag = filter + design_contact_lead(scene, plant, design);
-  set_waiting(scene, delay, lag, design);
+  set_waiting(scene, delay, filter, design);
   design.reference_delay_periods = static_cast<std::uint8_t>(latency + 0.5 * shaping);
-  design.reference_keep = lag / (1.0 + lag);
+  design.reference_keep = filter / (1.0 + filter);
   const double drive_delay = scene.drive->delay_periods;
   design.lead_periods = 0.5 + 0.5 * shaping + drive_delay / design.scales.every_periods;
   return found;
