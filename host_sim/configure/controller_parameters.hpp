@@ -130,10 +130,8 @@ typename control::AdaptiveRegulator<Scalar, MaxDelay>::Parameters parameters(
 template <class Regulator>
 typename control::ContactLead<Regulator>::Parameters parameters(
     const ControlDesign& design, Type<control::ContactLead<Regulator>> /*part*/) {
-  using Scalar = typename Regulator::Scalar;
-  return {parameters(design, Type<Regulator>{}), design.contact_lead > 0.0
-                                                     ? split<Scalar>(2.0 * design.contact_lead)
-                                                     : numeric::Split<Scalar>{}};
+  return {parameters(design, Type<Regulator>{}),
+          split<typename Regulator::Scalar>(2.0 * design.contact_lead)};
 }
 
 /// Without any pause where the design has none.

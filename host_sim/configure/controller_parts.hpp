@@ -130,25 +130,22 @@ struct RegulatorParts {
   using Integral = control::IntegralRegulator<Scalar, max_reference_delay>;
   using Scaling = control::ScalingRegulator<Scalar, max_reference_delay>;
   using Adaptive = control::AdaptiveRegulator<Scalar, max_reference_delay>;
-  template <class Regulator>
-  using Led = control::ContactLead<Regulator>;
-  using Part = Choice<None, Integral, Scaling, Adaptive, Led<None>, Led<Integral>>;
+  using Lead = control::ContactLead<None>;
+  using LedIntegral = control::ContactLead<Integral>;
+  using Part = Choice<None, Integral, Scaling, Adaptive, Lead, LedIntegral>;
 
   static Part chosen(const ControlDesign& design) {
+    const bool leads = design.contact_lead > 0.0;
     if (!design.senses_force || design.integral_gain == 0.0) {
-      return led<None>(design);
+      return leads ? Part(Type<Lead>{}) : Part(Type<None>{});
     }
     if (design.adaptive_gain) {
       return Part(Type<Adaptive>{});
     }
-    const bool scales = design.resonance() != nullptr && design.resonance()->scales;
-    return scales ? Part(Type<Scaling>{}) : led<Integral>(design);
-  }
-
- private:
-  template <class Regulator>
-  static Part led(const ControlDesign& design) {
-    return design.contact_lead > 0.0 ? Part(Type<Led<Regulator>>{}) : Part(Type<Regulator>{});
+    if (design.resonance() != nullptr && design.resonance()->scales) {
+      return Part(Type<Scaling>{});
+    }
+    return leads ? Part(Type<LedIntegral>{}) : Part(Type<Integral>{});
   }
 };
 

@@ -29,7 +29,7 @@ Scalar scaled_within(double value) {
   return scaled<Scalar>(value);
 }
 
-/// A positive number of any magnitude.
+/// A number of any magnitude, not negative.
 template <class Scalar>
 numeric::Split<Scalar> split(double value) {
   const numeric::Split<double> parts = numeric::split(value);

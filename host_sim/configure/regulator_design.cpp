@@ -83,23 +83,27 @@ void set_waiting(const scene::Scene& scene, double delay, double lag, ControlDes
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
 }
 
-/// The lead of a slow contact (control::ContactLead); none where it would add less than a quarter of the error at a
-/// ratio of 1, nor at resonance, where the vibration itself takes longer. Of a drive that is fed forward it would
-/// excite a mode whose stiffness is off.
+/// The lead of a slow contact (control::ContactLead), where the vibration is observed: of a drive that is fed forward
+/// it would excite a mode whose stiffness is off. None where it would add less than a quarter of the error at a ratio
+/// of 1, nor at resonance, where the vibration itself takes longer than the contact.
 /// @pre the gain of the integral is designed
-/// @return the time constant with which the error then decays, in periods; 0 without a lead
+/// @return the longest time constant with which the error then decays, in periods; 0 without a lead
 double design_contact_lead(const scene::Scene& scene, const NominalPlant& plant,
                            ControlDesign& design) {
   constexpr double least = 0.25;
+  constexpr double most = 1024.0;  // beyond it an error of 0.001 asks for all of the drive
   const bool may_be_slow = scene.sensor.force && scene::is_elastic(scene.friction.law) &&
                            scene::vibrates_along(scene.friction.law) &&
                            scene.vibration_mode() != scene::VibrationMode::resonant;
   const double slid_m = scene.sliding.fastest_m_per_s() * design.scales.step_period_s();
-  if (!may_be_slow || !(least * slid_m < design.integral_gain * presliding_m(plant)) ||
-      slid_m == 0.0) {
+  if (!may_be_slow || !(slid_m > 0.0)) {
     return 0.0;
   }
-  design.contact_lead = design.integral_gain * presliding_m(plant) / slid_m;
+  const double lead = design.integral_gain * presliding_m(plant) / slid_m;
+  if (!(lead > least)) {
+    return 0.0;
+  }
+  design.contact_lead = std::min(most, lead);
   return 1.0 / design.integral_gain;
 }
 

@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "firmware/control/controller.hpp"
-#include "firmware/control/feedback/contact_lead.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parts.hpp"
 #include "host_sim/loop/control_port.hpp"
@@ -26,12 +25,8 @@ auto map_of(const ControlDesign& design) {
       static_cast<std::size_t>(design.map));
 }
 
-/// The lead of a slow contact is wide open where a scene has none.
-template <class Scalar, template <class, int> class Regulator>
-using LedRegulator = control::ContactLead<Regulator<Scalar, configure::max_reference_delay>>;
-
-/// Relearning, a target force, the current limit of a resonant loop and its scale are wide open where a scene does
-/// not name them.
+/// Relearning, a target force, the lead of a slow contact, the current limit of a resonant loop and its scale are wide
+/// open where a scene does not need them.
 template <class Scalar, class Friction, class Feedforward, class Regulator, class Vibration,
           class Force>
 using ObservedParts = control::Parts<
@@ -43,7 +38,7 @@ using ObservedParts = control::Parts<
     std::conditional_t<Force::present, control::ForceTarget<Scalar>, control::RatioTarget<Scalar>>>;
 
 template <class Scalar, class Vibration,
-          template <class, int> class Regulator = control::IntegralRegulator>
+          class Regulator = typename configure::RegulatorParts<Scalar>::LedIntegral>
 std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
   return std::visit(
@@ -51,8 +46,7 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
         using Friction = typename decltype(friction)::type;
         using Feedforward = typename decltype(feedforward)::type;
         if (design.senses_force) {
-          using Feedback = LedRegulator<Scalar, Regulator>;
-          return in_process<ObservedParts<Scalar, Friction, Feedforward, Feedback, Vibration,
+          return in_process<ObservedParts<Scalar, Friction, Feedforward, Regulator, Vibration,
                                           control::ForceSensor>>(design);
         }
         return in_process<
@@ -62,7 +56,8 @@ std::unique_ptr<ControlPort> make_observing_control(const ControlDesign& design)
       parts.friction, map_of<Scalar>(design));
 }
 
-/// Relearning, a target force and the lead of a reading are wide open where a scene does not name them.
+/// Relearning, a target force, the lead of a slow contact and that of a reading are wide open where a scene does not
+/// need them.
 template <class Scalar, class Vibration>
 std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
   const configure::ControllerParts<Scalar> parts(design);
@@ -71,7 +66,7 @@ std::unique_ptr<ControlPort> make_feeling_control(const ControlDesign& design) {
         using Parts = control::Parts<
             Scalar, typename decltype(friction)::type, typename decltype(feedforward)::type,
             control::NoSlewLimit<Scalar>, control::NoShaping<Scalar>,
-            control::ContactLead<control::NoFeedback<Scalar>>, control::PeriodicRelearning<Scalar>,
+            typename configure::RegulatorParts<Scalar>::Lead, control::PeriodicRelearning<Scalar>,
             Vibration, control::ForceSensor, control::ForceTarget<Scalar>>;
         return in_process<Parts>(design);
       },
@@ -104,7 +99,7 @@ std::unique_ptr<ControlPort> make_observed_control(const ControlDesign& design) 
   using Current = control::CurrentLimit<Scalar>;
   return make_observing_control<Scalar,
                                 control::ResonantVibration<Scalar, max_drive_delay, Current>,
-                                control::ScalingRegulator>(design);
+                                typename configure::RegulatorParts<Scalar>::Scaling>(design);
 }
 
 }  // namespace sonoglide::loop::compose

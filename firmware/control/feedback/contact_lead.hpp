@@ -7,20 +7,20 @@
 
 namespace sonoglide::control {
 
-/// Under a vibration of which a contact forgets little in a carrier period, its mean friction ratio ρ follows
-/// the commanded one ρc as
-///   dρ/dt = (1 − ρ/ρc)/tp,   tp = Fc/(Kt |Vt|), the time in which it slides through its presliding distance:
-/// with the time constant τ = ρ* tp at the target ρ*. Added to the ratio that a regulator commands,
+/// The mean of Dahl's equation over a carrier period: the friction ratio ρ of a contact that forgets little in a
+/// period follows the commanded ratio ρc as
+///   dρ/dt = (1 − ρ/ρc)/tp,   tp = Fc/(Kt |Vt|), the time in which it slides through its presliding distance,
+/// near the target ρ* with the time constant τ = ρ* tp. Added to the ratio that a regulator commands is
 ///   lead ρ* (ρ* − ρ),   lead = g tp/T,
-/// is the proportional part of a controller whose zero is on that pole, 1/τ: behind it the loop is that of a
-/// prompt contact with an integrator of the gain g, and the error decays by a part g in each period, as long as
-/// the command stays in [0, 1], to which it is limited (../README.md#a-slow-contact).
+/// g being the loop's integral gain per period T. Integral and lead together are a proportional-integral controller
+/// whose zero cancels the contact's pole −1/τ. The error after a new target decays at the rate 1/τ + g/T, while the
+/// command is within [0, 1], to which it is limited (../README.md#a-slow-contact).
 ///
-/// Ratios on base 2. In fixed point the sum is limited and nothing overflows beyond what the regulator's error does;
-/// what is added is too small by less than 2^(e + 2) units of the last place, e the lead's exponent.
+/// Ratios on base 2. In fixed point the lead's part is too small by less than 2^(exponent + 2) units of the last place,
+/// and nothing overflows that does not without it.
 ///
-/// @tparam RegulatorT  NoFeedback | IntegralRegulator | AdaptiveRegulator; its reference must expect what the lead
-///                     does. With a lead of 0 the commands are the regulator's, bit for bit.
+/// @tparam RegulatorT  NoFeedback | IntegralRegulator, whose reference expects what the lead does. With a lead of 0 the
+///                     commands are the regulator's, bit for bit.
 template <class RegulatorT>
 class ContactLead : public RegulatorT {
  public:
@@ -29,7 +29,7 @@ class ContactLead : public RegulatorT {
 
   struct Parameters {
     [[no_unique_address]] typename RegulatorT::Parameters regulator;
-    numeric::Split<Scalar> lead;  ///< twice the lead; 0, or at least 1/2
+    numeric::Split<Scalar> lead;  ///< twice the lead [-]: 0, or from 1/2 to 2^11
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {

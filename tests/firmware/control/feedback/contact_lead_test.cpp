@@ -8,7 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "firmware/control/feedback/adaptive_regulator.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "scalars.hpp"
 
@@ -94,12 +93,6 @@ TYPED_TEST(ContactLeadTest, IsTheRegulatorWithoutALead) {
   using Own = ContactLeadTest<TypeParam>;
   expect_the_same<TypeParam, NoFeedback<TypeParam>>({});
   expect_the_same<TypeParam, typename Own::Integral>(Own::integral());
-  typename AdaptiveRegulator<TypeParam, delay>::Parameters adaptive{};
-  static_cast<typename Own::Integral::Parameters&>(adaptive) = Own::integral();
-  adaptive.least_gain = scaled<TypeParam>(0.01);
-  adaptive.shrink = scaled<TypeParam>(0.7);
-  adaptive.small_error = scaled<TypeParam>(0.0025);
-  expect_the_same<TypeParam, AdaptiveRegulator<TypeParam, delay>>(adaptive);
 }
 
 TYPED_TEST(ContactLeadTest, IsScaledWithTheGain) {
