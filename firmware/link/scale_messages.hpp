@@ -16,8 +16,9 @@ enum class Quantity : std::uint8_t {
   amplitude,         ///< of the drive, codes
   target,            ///< millionths
   bias,              ///< codes
+  step,              ///< of the controller, a count of them: full scale is the time from one to the next
 };
-inline constexpr std::size_t quantity_count = 5;
+inline constexpr std::size_t quantity_count = 6;
 
 /// In which a full scale is told.
 enum class ScaleUnit : std::uint8_t {
@@ -26,9 +27,10 @@ enum class ScaleUnit : std::uint8_t {
   newton,
   metre_per_second,
   volt,
+  second,
 };
 
-/// What a code of 2^31, or a million millionths, stands for.
+/// What a code of 2^31, a million millionths or one step stands for.
 struct FullScale {
   ScaleUnit unit;
   double value;  ///< above 0; 0 where there is no unit

@@ -37,7 +37,7 @@ std::vector<plant::Stretch> stretches_of(const std::vector<unit::RecordedTrace>&
     plant::Stretch& stretch = all.emplace_back();
     stretch.name =
         number == 0 ? "Undriven" : fmt::format("Target {:.6g}{}", targets.at(number), unit);
-    stretch.before = trace.before;
+    stretch.before = trace.state.before;
     for (const link::TraceRecord& record : trace.records) {
       stretch.steps.push_back(
           {record.friction_force, record.sliding_velocity, record.amplitude, record.other});

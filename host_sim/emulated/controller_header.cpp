@@ -95,7 +95,8 @@ std::string scale_lines(const scene::Scene& scene, const configure::ControlDesig
                            : scale_line("amplitude", "newton", scales.drive_amplitude_N)) +
          (design.holds_force ? scale_line("target", "newton", scales.force_N)
                              : scale_line("target", "ratio", 1.0)) +
-         scale_line("bias", bias_N > 0.0 ? "newton" : "none", bias_N);
+         scale_line("bias", bias_N > 0.0 ? "newton" : "none", bias_N) +
+         scale_line("step", "second", scales.step_period_s());
 }
 
 struct Header {
@@ -127,7 +128,7 @@ inline constexpr control::Controller<Parts>::Parameters parameters{{
 {}}};
 
 {}
-/// What 2^31 of a code stands for, and a million millionths of a target.
+/// What 2^31 of a code stands for, a million millionths of a target, and a step.
 inline constexpr link::FullScales full_scales{{{{
 {}}}}};
 

@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "firmware/app/parameter_labels.hpp"
@@ -15,8 +18,11 @@
 #include "firmware/link/messages.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/python/bindings.hpp"
+#include "host_sim/unit/step_recorder.hpp"
+#include "host_sim/unit/step_response.hpp"
 #include "host_sim/unit/unit_link.hpp"
 #include "host_sim/unit/unit_scales.hpp"
+#include "host_sim/unit/unit_trace.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::python {
@@ -79,10 +85,26 @@ class Port {
   }
 
   void set_target(double target) {
-    ask<link::TargetSet>(link::SetTarget{scales_.count_of_parameter(target_parameter, target)},
-                         target_parameter);
+    ask<link::TargetSet>(link::SetTarget{count_of(target)}, target_parameter);
   }
   bool holds_force() const { return scales_.holds_force(); }
+
+  py::dict step(double from, double to) {
+    const auto [trace, response] = recorded_step(count_of(from), count_of(to));
+    py::dict told;
+    told["friction_force_before_N"] = response.before_N;
+    told["friction_force_after_N"] = response.after_N;
+    told["ripple_N"] = response.ripple_N;
+    const auto tell = [&](const char* name, const std::optional<double>& value) {
+      told[name] = value ? py::object(py::float_(*value)) : py::object(py::none());
+    };
+    const auto course = response.course.value_or(unit::StepCourse{});
+    tell("rise_s", course.rise_s);
+    tell("settling_s", course.settling_s);
+    tell("overshoot", response.course ? std::optional(course.overshoot) : std::nullopt);
+    told["trace"] = columns_of(trace);
+    return told;
+  }
 
   void stop() { ask<link::Stopped>(link::Stop{}); }
   void restart() { ask<link::Restarted>(link::Restart{}); }
@@ -126,6 +148,40 @@ class Port {
   }
 
  private:
+  std::uint32_t count_of(double target) const {
+    return scales_.count_of_parameter(target_parameter, target);
+  }
+
+  std::pair<unit::RecordedTrace, unit::StepResponse> recorded_step(std::uint32_t from,
+                                                                   std::uint32_t to) try {
+    if (from == to) {
+      throw std::invalid_argument("from and to are one target; allowed: two");
+    }
+    const py::gil_scoped_release released;
+    const std::lock_guard turn(turn_);
+    const auto trace = unit::StepRecorder(link_, scales_).step_between(from, to);
+    return {trace, unit::step_response(trace, scales_)};
+  } catch (const unit::UnitRefusal& refusal) {
+    if (refusal.out_of_range()) {
+      throw std::invalid_argument(refusal.what());
+    }
+    throw std::runtime_error(refusal.what());
+  }
+
+  py::dict columns_of(const unit::RecordedTrace& trace) const {
+    py::dict columns;
+    columns["time_s"] = unit::times_of(trace, scales_);
+    const auto add = [&](link::Quantity quantity, std::int32_t link::TraceRecord::*code) {
+      columns[scales_.column_of(quantity).c_str()] =
+          unit::values_of(trace, scales_, quantity, code);
+    };
+    add(link::Quantity::friction_force, &link::TraceRecord::friction_force);
+    add(link::Quantity::sliding_velocity, &link::TraceRecord::sliding_velocity);
+    add(link::Quantity::amplitude, &link::TraceRecord::amplitude);
+    columns[scales_.column_of(link::Quantity::target).c_str()] = unit::targets_of(trace, scales_);
+    return columns;
+  }
+
   static std::chrono::milliseconds milliseconds(double time_s) {
     constexpr double longest_s = 3600.0;
     if (!(time_s > 0.0 && time_s <= longest_s)) {
@@ -196,6 +252,12 @@ void add_port(py::module_& module) {
           "set_target(self, target)\n--\n\nUntil reset: a friction ratio, or where holds_force a friction force [N].")
       .def_property_readonly("holds_force", &Port::holds_force,
                              "A friction force is the target, not a ratio.")
+      .def(
+          "step", &Port::step, py::arg("from_target"), py::arg("to_target"),
+          "step(self, from_target, to_target)\n--\n\nHow the friction force goes from one target, once the loop has "
+          "settled there,\nto another, which stays; the drive runs. friction_force_before_N, friction_force_after_N, "
+          "ripple_N;\nrise_s from 10 to 90 %, settling_s to 5 % and overshoot, parts of the step, None where there "
+          "are none;\ntrace, lists by column: time_s since the new target, then as status().")
       .def("stop", &Port::stop, "stop(self)\n--\n\nDrive to zero at once.")
       .def("restart", &Port::restart,
            "restart(self)\n--\n\nStarts the drive, from a stop, from a fault or from running.")

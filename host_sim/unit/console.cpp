@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
+#include <iomanip>
 #include <sstream>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
-#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
-#include "host_sim/unit/unit_trace.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::unit {
@@ -56,6 +54,8 @@ const std::vector<Console::Command>& Console::commands() {
        [](Console& on, const Words& words) { return on.stream(words); }},
       {"trace", "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE", 0,
        SIZE_MAX, [](Console& on, const Words& words) { return on.trace(words); }},
+      {"step", "step FROM TO [FILE]", 2, 3,
+       [](Console& on, const Words& words) { return on.step(words); }},
       {"help", "help", 0, 0, [](Console&, const Words&) { return Lines{help_text()}; }},
   };
   return all;
@@ -72,7 +72,7 @@ std::string Console::help_text() {
 std::vector<std::string> Console::carry_out(const std::string& line) {
   std::istringstream text(line);
   Words words;
-  for (std::string word; text >> word;) {
+  for (std::string word; text >> std::quoted(word);) {
     words.push_back(word);
   }
   if (words.empty()) {
@@ -216,65 +216,6 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
       "{} {}{}, saved", name,
       scales_.text_of_parameter(parameter, std::get<link::ParameterWritten>(result).value),
       scales_.is_force(parameter) ? " N" : "")};
-}
-
-Console::Lines Console::stream(const Words& words) {
-  const std::optional<link::Stream> wanted = stream_of(words);
-  if (!wanted) {
-    return refuse_usage("stream", words,
-                        fmt::format("; channels: {}; N: 1 to 65535", channel_names()));
-  }
-  // That of before ends first, so that its samples are not taken for those of the next.
-  const auto ended = unit_.stream({0, 1});
-  if (const auto* refusal = std::get_if<link::Refusal>(&ended)) {
-    return refuse(*refusal, 0);
-  }
-  Lines lines = take_rows();
-  if (wanted->channels == 0) {
-    lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
-  } else {
-    const auto begun = unit_.stream(*wanted);
-    if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
-      return refuse(*refusal, 0);
-    }
-    lines.push_back(table_.begin(*wanted));
-  }
-  return lines;
-}
-
-Console::Lines Console::trace(const Words& words) {
-  const auto told = unit_.ask<link::TraceState>(link::ReadTraceState{});
-  const auto* const state = std::get_if<link::TraceState>(&told);
-  if (state == nullptr) {
-    return refuse("the unit has no trace");
-  }
-  if (words.empty()) {
-    return {text_of(*state)};
-  }
-  if (words.size() == 2 && words[0] == "save") {
-    return save_trace(*state, words[1]);
-  }
-  const auto wanted = trace_of(words, static_cast<std::uint16_t>(state->records / 2));
-  if (!wanted || wanted->before >= state->records) {
-    return refuse_usage("trace", words, fmt::format("; STEPS_BEFORE: 0 to {}", state->records - 1));
-  }
-  const auto armed = unit_.ask<link::TraceArmed>(*wanted);
-  if (const auto* refusal = std::get_if<link::Refusal>(&armed)) {
-    return refuse(*refusal, 0);
-  }
-  return {"trace waiting"};
-}
-
-Console::Lines Console::save_trace(const link::TraceState& state, const std::string& file) {
-  if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
-    return refuse(text_of(state) + ": nothing to save");
-  }
-  try {
-    unit::save_trace(unit_, scales_, state, file);
-  } catch (const process::FileError& error) {
-    return refuse(error.what());
-  }
-  return {fmt::format("{} steps saved", state.records)};
 }
 
 link::Telemetry Console::telemetry() {

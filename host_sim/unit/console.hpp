@@ -18,7 +18,7 @@ class Console {
   /// @throws process::ProcessError  the unit does not answer, or does not tell its scales
   explicit Console(UnitLink& unit) : unit_(unit), scales_(unit) {}
 
-  /// Carries out a command: `help` lists them. An empty line does nothing.
+  /// Carries out a command: `help` lists them. An empty line does nothing. A word with blanks is in double quotes.
   /// @return the lines of the answer
   /// @throws process::ProcessError  the unit does not answer
   std::vector<std::string> carry_out(const std::string& line);
@@ -59,6 +59,7 @@ class Console {
   Lines stream(const Words& words);
   Lines trace(const Words& words);
   Lines save_trace(const link::TraceState& state, const std::string& file);
+  Lines step(const Words& words);
 
   link::Telemetry telemetry();
   /// Of a command with other words than it takes.

@@ -1,21 +1,14 @@
 /// The traces by which the plant of a unit is identified.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "firmware/link/trace_messages.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_trace.hpp"
 
 namespace sonoglide::unit {
-
-/// A trace that was read.
-struct RecordedTrace {
-  std::size_t before = 0;  ///< records of the steps before what triggered it
-  std::vector<link::TraceRecord> records;
-};
 
 /// Whether a unit is that of a controller: the number that it tells is that of the controller's design with
 /// its parameters, as it lists them.

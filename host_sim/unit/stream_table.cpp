@@ -84,11 +84,15 @@ std::string channel_names() {
   return fmt::format("{}", fmt::join(channel_words, ", "));
 }
 
+std::array<std::string, 4> names_of_codes(std::uint32_t codes) {
+  return {control::name(static_cast<control::State>(codes & 0xFF)),
+          control::name(static_cast<control::Limit>(codes >> 8 & 0xFF)),
+          app::fault_name(static_cast<std::uint8_t>(codes >> 16)),
+          control::name(static_cast<control::Settling>(codes >> 24))};
+}
+
 std::string text_of_codes(std::uint32_t codes) {
-  return fmt::format("{},{},{},{}", control::name(static_cast<control::State>(codes & 0xFF)),
-                     control::name(static_cast<control::Limit>(codes >> 8 & 0xFF)),
-                     app::fault_name(static_cast<std::uint8_t>(codes >> 16)),
-                     control::name(static_cast<control::Settling>(codes >> 24)));
+  return fmt::format("{}", fmt::join(names_of_codes(codes), ","));
 }
 
 std::string StreamTable::begin(const link::Stream& stream) {

@@ -1,6 +1,7 @@
 /// A stream of a unit as a table: a row for each sample.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,7 +21,9 @@ std::optional<link::Stream> stream_of(const std::vector<std::string>& words);
 /// The names of the channels, a comma and a blank between them.
 std::string channel_names();
 
-/// State, limit, fault and settling, a comma between them.
+/// State, limit, fault and settling.
+std::array<std::string, 4> names_of_codes(std::uint32_t codes);
+/// The same, a comma between them.
 std::string text_of_codes(std::uint32_t codes);
 
 /// Counts the samples that are left out.

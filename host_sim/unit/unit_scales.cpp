@@ -29,9 +29,11 @@ const char* name_of(link::Quantity quantity, bool holds_force) {
     case link::Quantity::target:
       return holds_force ? "target_force" : "target";
     case link::Quantity::bias:
+      return "bias";
+    case link::Quantity::step:
       break;
   }
-  return "bias";
+  return "step";
 }
 
 }  // namespace
@@ -44,6 +46,8 @@ UnitName unit_name(link::ScaleUnit unit) {
       return {"_m_per_s", " m/s"};
     case link::ScaleUnit::volt:
       return {"_V", " V"};
+    case link::ScaleUnit::second:
+      return {"_s", " s"};
     case link::ScaleUnit::none:
     case link::ScaleUnit::ratio:
       break;

@@ -36,6 +36,9 @@ class UnitScales {
     return (*this)[link::Quantity::target].unit == link::ScaleUnit::newton;
   }
 
+  /// Time from one step of the controller to the next.
+  double step_s() const { return (*this)[link::Quantity::step].value; }
+
   /// As in periods.csv, with the unit: `friction_force_N`.
   std::string column_of(link::Quantity quantity) const;
 

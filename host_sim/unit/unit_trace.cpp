@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
-#include <filesystem>
-#include <system_error>
+#include <iterator>
 
-#include "host_sim/output/output_folder.hpp"
-#include "host_sim/process/file_error.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/unit/stream_table.hpp"
 
@@ -112,52 +110,61 @@ std::string text_of(const link::TraceState& state) {
   return "no trace";
 }
 
-std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceState& state) {
-  std::vector<link::TraceRecord> records;
+RecordedTrace read_trace(UnitLink& unit, const link::TraceState& state) {
+  RecordedTrace trace{state, {}};
   for (std::uint16_t i = 0; i < state.records; ++i) {
     const auto result = unit.ask<link::TraceRecord>(link::ReadTraceRecord{i});
     const auto* const record = std::get_if<link::TraceRecord>(&result);
     if (record == nullptr) {
       throw process::ProcessError("another host armed the trace");
     }
-    records.push_back(*record);
+    trace.records.push_back(*record);
   }
-  return records;
+  return trace;
 }
 
 namespace {
 
-std::string read_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state) {
-  const auto extra = static_cast<link::TraceExtra>(state.extra);
+template <class ValueOf>
+std::vector<double> each(const RecordedTrace& trace, const ValueOf& value_of) {
+  std::vector<double> all;
+  std::transform(trace.records.begin(), trace.records.end(), std::back_inserter(all), value_of);
+  return all;
+}
+
+}  // namespace
+
+std::vector<double> times_of(const RecordedTrace& trace, const UnitScales& scales) {
+  return each(trace, [&](const link::TraceRecord& record) {
+    return (record.index - trace.state.before) * scales.step_s();
+  });
+}
+
+std::vector<double> values_of(const RecordedTrace& trace, const UnitScales& scales,
+                              link::Quantity quantity, std::int32_t link::TraceRecord::*code) {
+  return each(trace, [&](const link::TraceRecord& record) {
+    return scales.value_of(quantity, static_cast<std::uint32_t>(record.*code));
+  });
+}
+
+std::vector<double> targets_of(const RecordedTrace& trace, const UnitScales& scales) {
+  return each(trace,
+              [&](const link::TraceRecord& record) { return scales.target_of(record.target); });
+}
+
+std::string csv_of(const RecordedTrace& trace, const UnitScales& scales) {
+  const auto extra = static_cast<link::TraceExtra>(trace.state.extra);
   std::string table =
       fmt::format("period,{},{},{},{},state,limit,fault,settling{}\n",
                   scales.column_of(link::Quantity::friction_force),
                   scales.column_of(link::Quantity::sliding_velocity),
                   scales.column_of(link::Quantity::amplitude),
                   scales.column_of(link::Quantity::target), column_of(extra, scales));
-  std::uint32_t period = state.first_period;
-  for (const link::TraceRecord& record : read_records(unit, state)) {
+  std::uint32_t period = trace.state.first_period;
+  for (const link::TraceRecord& record : trace.records) {
     table += row_of(period++, record, extra, scales) + "\n";
   }
   return table;
-}
-
-}  // namespace
-
-void save_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state,
-                const std::string& file) {
-  const std::filesystem::path path = std::filesystem::absolute(file);
-  const std::string name = path.filename().string();
-  std::error_code unknown;
-  if (name.empty() || std::filesystem::is_directory(path, unknown)) {
-    process::fail(file, "is a folder; allowed: a new file");
-  }
-  if (std::filesystem::exists(std::filesystem::symlink_status(path, unknown))) {
-    process::fail(file, "is there already; allowed: a new file");
-  }
-  output::OutputFolder folder(path.parent_path(), {name});
-  folder.write(name, read_trace(unit, scales, state));
-  folder.commit();
 }
 
 }  // namespace sonoglide::unit

@@ -22,16 +22,28 @@ std::optional<link::ArmTrace> trace_of(const std::vector<std::string>& words,
 /// Where it stands, in words.
 std::string text_of(const link::TraceState& state);
 
+/// A trace that was read.
+struct RecordedTrace {
+  link::TraceState state;
+  std::vector<link::TraceRecord> records;
+};
+
 /// @param state  of the unit, whole
 /// @throws process::ProcessError  the unit does not answer, or another host armed it anew
-std::vector<link::TraceRecord> read_records(UnitLink& unit, const link::TraceState& state);
+RecordedTrace read_trace(UnitLink& unit, const link::TraceState& state);
 
-/// Writes a whole trace as CSV: a row for each step, oldest first, with the names of the columns above them,
-/// which are those of periods.csv where both have the same.
-/// @param file  a new one; where it cannot be written is known before the trace is read
-/// @throws process::ProcessError  as read_records()
-/// @throws process::FileError     the file is there, or the file system refuses
-void save_trace(UnitLink& unit, const UnitScales& scales, const link::TraceState& state,
-                const std::string& file);
+/// [s] since the step that triggered it.
+std::vector<double> times_of(const RecordedTrace& trace, const UnitScales& scales);
+
+/// @param code  of a record, of full scale 2^31
+std::vector<double> values_of(const RecordedTrace& trace, const UnitScales& scales,
+                              link::Quantity quantity, std::int32_t link::TraceRecord::*code);
+
+/// Friction ratios, or newtons.
+std::vector<double> targets_of(const RecordedTrace& trace, const UnitScales& scales);
+
+/// A row for each step, oldest first, with the names of the columns above them, which are those of periods.csv
+/// where both have the same.
+std::string csv_of(const RecordedTrace& trace, const UnitScales& scales);
 
 }  // namespace sonoglide::unit

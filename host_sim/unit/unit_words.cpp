@@ -155,9 +155,10 @@ std::string text_of(const UnitScales& scales) {
   const auto text = [&](link::Quantity quantity) {
     return text_of(scales[quantity].value, scales[quantity].unit);
   };
-  return fmt::format("full scale of force {}, velocity {}, drive {}, bias {}",
+  return fmt::format("full scale of force {}, velocity {}, drive {}, bias {}; a step every {}",
                      text(link::Quantity::friction_force), text(link::Quantity::sliding_velocity),
-                     text(link::Quantity::amplitude), text(link::Quantity::bias));
+                     text(link::Quantity::amplitude), text(link::Quantity::bias),
+                     output::quantity(scales.step_s(), "s"));
 }
 
 std::string text_of(const link::Identity& told) {

@@ -117,7 +117,8 @@ TEST(ControllerHeader, StatesTheFullScalesInSiUnits) {
                     of_ratio.design->scales.velocity_m_per_s) +
                 "    {link::ScaleUnit::newton, 0x1.ep+10},  // amplitude: 1920\n"
                 "    {link::ScaleUnit::ratio, 0x1p+0},  // target: 1\n"
-                "    {link::ScaleUnit::none, 0x0p+0},  // bias: 0\n");
+                "    {link::ScaleUnit::none, 0x0p+0},  // bias: 0\n" +
+                fmt::format("    {{link::ScaleUnit::second, {0:a}}},  // step: {0}\n", 1.0 / 60e3));
   const std::string of_belt = scales(read("belt_force"));
   EXPECT_TRUE(has(of_belt, "{link::ScaleUnit::volt, 0x1.f4p+8},  // amplitude: 500\n")) << of_belt;
   EXPECT_TRUE(has(of_belt, "{link::ScaleUnit::newton, 0x1.2cp+9},  // target: 600\n")) << of_belt;

@@ -50,6 +50,7 @@ def test_a_unit_is_started_set_and_stopped(unit):
     assert not unit.holds_force
     scales = unit.identity()["full_scales"]
     assert scales.pop("sliding_velocity_m_per_s") > 0.0
+    assert scales.pop("step_s") == 1.0 / 60e3
     assert scales == {"friction_force_N": FORCE_FULL_SCALE_N, "drive_amplitude_N": 1920.0, "target": 1.0}
     unit.restart()
     assert unit.status()["state"] != "off"
@@ -64,6 +65,23 @@ def test_a_unit_is_started_set_and_stopped(unit):
     assert 0.0 < unit.status()["friction_force_N"] < 0.03924
     assert unit.parameter("friction_force")["highest"] == 0.03924
     assert unit.faults() == []
+
+
+def test_a_step_is_measured(unit):
+    with pytest.raises(RuntimeError, match="the drive is off: restart it first"):
+        unit.step(0.4, 0.7)
+    unit.restart()
+    with pytest.raises(ValueError, match="target: allowed is .* to 1"):
+        unit.step(0.4, 1.5)
+    with pytest.raises(ValueError, match="are one target"):
+        unit.step(0.4, 0.4)
+    step = unit.step(0.4, 0.7)
+    assert step["friction_force_before_N"] < step["friction_force_after_N"]
+    assert 0.0 < step["rise_s"] < step["settling_s"]
+    trace = step["trace"]
+    assert len(trace["time_s"]) == len(trace["friction_force_N"]) == 1024
+    assert [target for time, target in zip(trace["time_s"], trace["target"]) if time >= 0.0][0] == 0.7
+    assert unit.status()["target"] == 0.7
 
 
 def test_a_force_is_ordered_in_newtons(tmp_path):

@@ -226,7 +226,7 @@ TEST_F(ConsoleTest, SaysWhatTheUnitIs) {
             (Lines{fmt::format("test-stand, firmware 0.1.0, design {:#010x}, serial number 4711",
                                RatioDesign::design.design()),
                    "target: friction ratio, 0 to 1; full scale of force 0.04 N, velocity 5 m/s, "
-                   "drive 1920 N, bias none"}));
+                   "drive 1920 N, bias none; a step every 16.67 us"}));
 }
 
 TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
@@ -341,6 +341,37 @@ TEST_F(TraceConsole, SavesWhatComesNowAndNamesWhatThereIs) {
   }
 }
 
+TEST_F(TraceConsole, MeasuresAStepAndSavesItsPage) {
+  EXPECT_EQ(line_of("step 0.4 0.7"), "the drive is off: restart it first");
+  ask("restart");
+  const std::string page = file_ + " a b.html";
+  const std::string told = line_of("step 0.4 0.7 \"" + page + '"');
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(told, found,
+                                std::regex("^friction force from ([0-9.]+) mN to ([0-9.]+) mN")))
+      << told;
+  constexpr double undriven_mN = 40.0 * app::TimedBoard::friction;
+  EXPECT_NEAR(std::stod(found[1]), 0.4 * undriven_mN, 0.02 * undriven_mN);
+  EXPECT_NEAR(std::stod(found[2]), 0.7 * undriven_mN, 0.02 * undriven_mN);
+  EXPECT_NE(told.find(" of the step after "), std::string::npos) << told;
+  std::ifstream stream(page);
+  const std::string html{std::istreambuf_iterator<char>(stream), {}};
+  std::filesystem::remove(page);
+  EXPECT_NE(html.find("Step of a unit"), std::string::npos);
+  EXPECT_EQ(line_of("status").find("state running, target 0.7,"), 0U);
+  EXPECT_EQ(console_.refused(), 1U);
+}
+
+TEST_F(TraceConsole, AStepThatCannotBeIsRefusedBeforeItIsDriven) {
+  ask("restart");
+  EXPECT_EQ(line_of("step 0.4 0.4"),
+            "\"step 0.4 0.4\": allowed: step FROM TO [FILE]; FROM and TO are two targets");
+  EXPECT_EQ(line_of("step 0.4 high"), "target: \"high\" is no number; allowed is 0 to 1");
+  EXPECT_EQ(line_of("step 0.4 1.5"), "target: allowed is 0 to 1");
+  EXPECT_EQ(line_of("step 0.4 0.5 /dev/null/x.csv"), "/dev/null: is a file, not a folder");
+  EXPECT_EQ(line_of("status").find("state running, target 0.4,"), 0U);
+}
+
 TEST(StreamTableTest, CountsWhatIsLeftOutAndShowsCodesExactly) {
   const UnitScales scales(app::full_scales);
   StreamTable table(scales);
@@ -358,7 +389,7 @@ TEST(StreamTableTest, CountsWhatIsLeftOutAndShowsCodesExactly) {
 TEST_F(ForceConsole, TakesAndTellsForcesInNewtons) {
   EXPECT_EQ(ask("identity").at(1),
             "target: friction force, 0 to 0.03924 N; full scale of force 0.03924 N, velocity 5 "
-            "m/s, drive 1920 N, bias none");
+            "m/s, drive 1920 N, bias none; a step every 16.67 us");
   EXPECT_EQ(line_of("status").find("state off, target 0.00981 N, drive 0 N, limit"), 0U);
   EXPECT_EQ(line_of("target 0.012").find("state off, target 0.012 N, drive 0 N, limit"), 0U);
   EXPECT_EQ(line_of("target 0.01234567").find("state off, target 0.0123457 N,"), 0U);
@@ -414,7 +445,7 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   const std::string commands =
       "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
       "set NAME VALUE, stream CHANNEL ... [every N], stream off, trace, trace now, "
-      "trace on fault|target [STEPS_BEFORE], trace save FILE, help";
+      "trace on fault|target [STEPS_BEFORE], trace save FILE, step FROM TO [FILE], help";
   EXPECT_EQ(line_of("help"), commands);
   EXPECT_EQ(line_of(" go  now "), "\"go now\": unknown; there are: " + commands);
   EXPECT_EQ(console_.refused(), 7U);

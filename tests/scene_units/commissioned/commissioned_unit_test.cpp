@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -131,6 +132,23 @@ TEST(CommissionedUnit, ItsPlantIsFound) {
   for (const auto& step : nlohmann::json::parse(commissioned.out)["control"]["steps"]) {
     EXPECT_LT(step["settling_time_s"], 1e-3);
   }
+}
+
+TEST(CommissionedUnit, AStepOfItsLoopIsMeasured) {
+  const Stand stand({});
+  const acceptance::ScratchFolder folder;
+  folder.write("lines", "restart\nstep 0.4 0.7 step.html\n");
+  const acceptance::Outcome run = folder.run("connect " + stand.device() + " --quiet < lines");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  std::smatch found;
+  const std::regex pattern(
+      "friction force from ([0-9.]+) mN to ([0-9.]+) mN, ripple .* rises in ([0-9.]+) us, within 5 % of "
+      "the step after ([0-9.]+) (us|ms), overshoot");
+  ASSERT_TRUE(std::regex_search(run.out, found, pattern)) << run.out;
+  constexpr double undriven_mN = 39.24 * 0.5;
+  EXPECT_NEAR(std::stod(found[1]), 0.4 * undriven_mN, 0.02 * undriven_mN) << run.out;
+  EXPECT_NEAR(std::stod(found[2]), 0.7 * undriven_mN, 0.02 * undriven_mN) << run.out;
+  EXPECT_EQ(folder.entries(), (std::vector<std::string>{".sonoglide", "lines", "step.html"}));
 }
 
 TEST(CommissionedUnit, OfAnotherSceneIsLeftAlone) {

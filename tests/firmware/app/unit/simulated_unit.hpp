@@ -50,7 +50,8 @@ inline constexpr link::FullScales full_scales{{{link::ScaleUnit::newton, 0.04},
                                                {link::ScaleUnit::metre_per_second, 5.0},
                                                {link::ScaleUnit::newton, 1920.0},
                                                {link::ScaleUnit::ratio, 1.0},
-                                               {link::ScaleUnit::none, 0.0}}};
+                                               {link::ScaleUnit::none, 0.0},
+                                               {link::ScaleUnit::second, carrier_period_s}}};
 inline constexpr FieldDesign<Parts> field_design(designed, 0.2F, 1, full_scales, carrier_period_s,
                                                  default_timeout_ms);
 

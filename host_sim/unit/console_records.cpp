@@ -1,0 +1,107 @@
+// The commands that record what a unit does: stream, trace and step.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "host_sim/process/file_error.hpp"
+#include "host_sim/unit/console.hpp"
+#include "host_sim/unit/step_recorder.hpp"
+#include "host_sim/unit/step_response.hpp"
+#include "host_sim/unit/trace_file.hpp"
+#include "host_sim/unit/unit_trace.hpp"
+#include "host_sim/unit/unit_words.hpp"
+
+namespace sonoglide::unit {
+
+Console::Lines Console::stream(const Words& words) {
+  const std::optional<link::Stream> wanted = stream_of(words);
+  if (!wanted) {
+    return refuse_usage("stream", words,
+                        fmt::format("; channels: {}; N: 1 to 65535", channel_names()));
+  }
+  // That of before ends first, so that its samples are not taken for those of the next.
+  const auto ended = unit_.stream({0, 1});
+  if (const auto* refusal = std::get_if<link::Refusal>(&ended)) {
+    return refuse(*refusal, 0);
+  }
+  Lines lines = take_rows();
+  if (wanted->channels == 0) {
+    lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
+  } else {
+    const auto begun = unit_.stream(*wanted);
+    if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
+      return refuse(*refusal, 0);
+    }
+    lines.push_back(table_.begin(*wanted));
+  }
+  return lines;
+}
+
+Console::Lines Console::trace(const Words& words) {
+  const auto told = unit_.ask<link::TraceState>(link::ReadTraceState{});
+  const auto* const state = std::get_if<link::TraceState>(&told);
+  if (state == nullptr) {
+    return refuse("the unit has no trace");
+  }
+  if (words.empty()) {
+    return {text_of(*state)};
+  }
+  if (words.size() == 2 && words[0] == "save") {
+    return save_trace(*state, words[1]);
+  }
+  const auto wanted = trace_of(words, static_cast<std::uint16_t>(state->records / 2));
+  if (!wanted || wanted->before >= state->records) {
+    return refuse_usage("trace", words, fmt::format("; STEPS_BEFORE: 0 to {}", state->records - 1));
+  }
+  const auto armed = unit_.ask<link::TraceArmed>(*wanted);
+  if (const auto* refusal = std::get_if<link::Refusal>(&armed)) {
+    return refuse(*refusal, 0);
+  }
+  return {"trace waiting"};
+}
+
+Console::Lines Console::save_trace(const link::TraceState& state, const std::string& file) {
+  if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
+    return refuse(text_of(state) + ": nothing to save");
+  }
+  try {
+    TraceFile saved(file);
+    saved.write(read_trace(unit_, state), scales_);
+  } catch (const process::FileError& error) {
+    return refuse(error.what());
+  }
+  return {fmt::format("{} steps saved", state.records)};
+}
+
+Console::Lines Console::step(const Words& words) {
+  std::uint32_t targets[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ReadValue value = read_value(words[i], target_parameter, scales_);
+    if (!value.error.empty()) {
+      return refuse_value(target_parameter, value.error);
+    }
+    targets[i] = value.count;
+  }
+  if (targets[0] == targets[1]) {
+    return refuse_usage("step", words, "; FROM and TO are two targets");
+  }
+  try {
+    std::optional<TraceFile> file;
+    if (words.size() == 3) {
+      file.emplace(words[2]);
+    }
+    const RecordedTrace trace = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
+    const StepResponse response = step_response(trace, scales_);
+    if (file) {
+      file->write(trace, scales_, response);
+    }
+    return {text_of(response)};
+  } catch (const UnitRefusal& refusal) {
+    return refuse(refusal.what());
+  } catch (const process::FileError& error) {
+    return refuse(error.what());
+  }
+}
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,71 @@
+/// How the steps of a running unit are recorded.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "host_sim/process/pipe.hpp"
+#include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_scales.hpp"
+#include "host_sim/unit/unit_trace.hpp"
+
+namespace sonoglide::unit {
+
+/// The unit answers, but refuses what it is asked, or has stopped by a fault.
+class UnitRefusal : public process::ProcessError {
+ public:
+  explicit UnitRefusal(const std::string& words, bool out_of_range = false)
+      : ProcessError(words), out_of_range_(out_of_range) {}
+
+  /// Of a value that the unit does not have: what() has its range.
+  bool out_of_range() const { return out_of_range_; }
+
+ private:
+  bool out_of_range_;
+};
+
+/// Drives a unit from target to target and reads its traces. It keeps its limits and finds its faults as ever.
+/// Every function throws process::ProcessError where the unit does not answer, and UnitRefusal.
+class StepRecorder {
+ public:
+  /// @param unit, scales  outlive this
+  StepRecorder(UnitLink& unit, const UnitScales& scales) : unit_(unit), scales_(scales) {}
+
+  /// The unit without a drive: it is stopped.
+  RecordedTrace undriven();
+
+  void restart();
+
+  /// Sets a target, and waits until the loop tells whether it settles, 5 s at most.
+  /// @param target  count of millionths
+  void hold(std::uint32_t target);
+
+  /// The steps around a new target. Then it waits as hold() does.
+  /// @param target  count of millionths, another than the one in force
+  /// @param before  steps before the new target that are recorded; fewer than the unit records
+  RecordedTrace step(std::uint32_t target, std::uint16_t before);
+
+  /// The step of a running unit from one target to another, after a quarter of the trace at the first. Nothing
+  /// is driven where the unit has not both targets, or no trace, or no drive.
+  /// @param first, second  counts of millionths, two different ones
+  RecordedTrace step_between(std::uint32_t first, std::uint32_t second);
+
+ private:
+  template <class Answer, class Request>
+  Answer require(const Request& request, std::size_t parameter = 0);
+
+  void require_target(std::uint32_t target);
+  std::uint16_t steps_recorded();
+  void set_target(std::uint32_t target);
+  void arm(link::Trigger trigger, std::uint16_t before);
+  link::Telemetry telemetry();
+  void wait(std::chrono::milliseconds time);
+  void settle();
+  RecordedTrace read();
+
+  UnitLink& unit_;
+  const UnitScales& scales_;
+};
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,34 @@
+/// What a trace says of the answer to a new target.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host_sim/unit/unit_scales.hpp"
+#include "host_sim/unit/unit_trace.hpp"
+
+namespace sonoglide::unit {
+
+/// The course of the friction force from one level to another. Times count from the step of the controller that
+/// is the first to have the new target. They are absent where the trace is over before.
+struct StepCourse {
+  std::optional<double> rise_s;      ///< from 10 % of the step to 90 %
+  std::optional<double> settling_s;  ///< until it stays within 5 % of the step
+  double overshoot = 0.0;  ///< farthest beyond the last level, part of the step; 0 or more
+};
+
+struct StepResponse {
+  double before_N = 0.0;  ///< mean of the friction force before the new target
+  double after_N = 0.0;   ///< of the last quarter of the steps since
+  double ripple_N = 0.0;  ///< half peak to peak about these two, the larger of both
+  /// Absent where the levels are less than twice the ripple apart: what is seen then is the ripple.
+  std::optional<StepCourse> course;
+};
+
+/// @param trace  that a target triggered, with a step or more before that and four or more after it
+StepResponse step_response(const RecordedTrace& trace, const UnitScales& scales);
+
+/// In a line.
+std::string text_of(const StepResponse& response);
+
+}  // namespace sonoglide::unit

@@ -1,0 +1,31 @@
+/// The file in which a trace is saved.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host_sim/output/output_folder.hpp"
+#include "host_sim/unit/step_response.hpp"
+#include "host_sim/unit/unit_scales.hpp"
+#include "host_sim/unit/unit_trace.hpp"
+
+namespace sonoglide::unit {
+
+/// A name that ends with .html is that of a page, any other that of a table, CSV.
+class TraceFile {
+ public:
+  /// @param name  of a new file
+  /// @throws process::FileError  it is there already, is a folder, or cannot be written
+  explicit TraceFile(const std::string& name);
+
+  /// @throws process::FileError  the file system refuses; there is no file then
+  void write(const RecordedTrace& trace, const UnitScales& scales,
+             const std::optional<StepResponse>& response = std::nullopt);
+
+ private:
+  std::filesystem::path path_;
+  output::OutputFolder folder_;
+};
+
+}  // namespace sonoglide::unit

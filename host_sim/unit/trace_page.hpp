@@ -1,0 +1,18 @@
+/// A trace as a page.
+#pragma once
+
+#include <optional>
+
+#include "host_sim/output/page.hpp"
+#include "host_sim/unit/step_response.hpp"
+#include "host_sim/unit/unit_scales.hpp"
+#include "host_sim/unit/unit_trace.hpp"
+
+namespace sonoglide::unit {
+
+/// The course of what was read and answered, over the time since the step that triggered the trace, and what the
+/// controller said of itself.
+output::Page page_of(const RecordedTrace& trace, const UnitScales& scales,
+                     const std::optional<StepResponse>& response);
+
+}  // namespace sonoglide::unit
