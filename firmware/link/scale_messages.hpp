@@ -16,7 +16,7 @@ enum class Quantity : std::uint8_t {
   amplitude,         ///< of the drive, codes
   target,            ///< millionths
   bias,              ///< codes
-  step,              ///< of the controller, a count of them: full scale is the time from one to the next
+  step,  ///< of the controller, a count of them: full scale is the time from one to the next
 };
 inline constexpr std::size_t quantity_count = 6;
 

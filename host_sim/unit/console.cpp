@@ -52,6 +52,8 @@ const std::vector<Console::Command>& Console::commands() {
        [](Console& on, const Words& words) { return on.set_parameter(words[0], words[1]); }},
       {"stream", "stream CHANNEL ... [every N], stream off", 0, SIZE_MAX,
        [](Console& on, const Words& words) { return on.stream(words); }},
+      {"plot", "plot CHANNEL", 1, 1,
+       [](Console& on, const Words& words) { return on.plot(words[0]); }},
       {"trace", "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE", 0,
        SIZE_MAX, [](Console& on, const Words& words) { return on.trace(words); }},
       {"step", "step FROM TO [FILE]", 2, 3,
@@ -111,7 +113,8 @@ std::string Console::tell_news() {
 Console::Lines Console::take_rows() {
   Lines rows;
   for (const link::Streamed& sample : unit_.take_streamed()) {
-    rows.push_back(table_.row(sample));
+    const std::string row = table_.row(sample);
+    rows.push_back(plot_ ? plot_->row(sample) : row);
   }
   return rows;
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host_sim/unit/live_plot.hpp"
 #include "host_sim/unit/stream_table.hpp"
 #include "host_sim/unit/unit_link.hpp"
 #include "host_sim/unit/unit_scales.hpp"
@@ -57,6 +59,8 @@ class Console {
   Lines set_parameter(const std::string& name, const std::string& text);
 
   Lines stream(const Words& words);
+  Lines plot(const std::string& channel);
+  Lines begin_stream(const link::Stream& wanted, const std::optional<LivePlot>& plot);
   Lines trace(const Words& words);
   Lines save_trace(const link::TraceState& state, const std::string& file);
   Lines step(const Words& words);
@@ -77,6 +81,7 @@ class Console {
   UnitLink& unit_;
   UnitScales scales_;
   StreamTable table_{scales_};
+  std::optional<LivePlot> plot_;  ///< of the stream that runs, in place of its table
   std::size_t refused_ = 0;
   unsigned told_fault_ = 0;
 };

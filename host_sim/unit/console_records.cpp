@@ -20,20 +20,41 @@ Console::Lines Console::stream(const Words& words) {
     return refuse_usage("stream", words,
                         fmt::format("; channels: {}; N: 1 to 65535", channel_names()));
   }
+  return begin_stream(*wanted, std::nullopt);
+}
+
+Console::Lines Console::plot(const std::string& channel) {
+  const std::optional<link::Stream> named = stream_of({channel});
+  const auto plot = named ? plot_of(*named, scales_) : std::nullopt;
+  if (!plot) {
+    return refuse_usage("plot", {channel},
+                        fmt::format("; channels: {}, of them not state", channel_names()));
+  }
+  return begin_stream(plot->stream(), plot);
+}
+
+/// @param plot  in place of a table
+Console::Lines Console::begin_stream(const link::Stream& wanted,
+                                     const std::optional<LivePlot>& plot) {
   // That of before ends first, so that its samples are not taken for those of the next.
   const auto ended = unit_.stream({0, 1});
   if (const auto* refusal = std::get_if<link::Refusal>(&ended)) {
     return refuse(*refusal, 0);
   }
   Lines lines = take_rows();
-  if (wanted->channels == 0) {
+  plot_.reset();
+  if (wanted.channels == 0) {
     lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
-  } else {
-    const auto begun = unit_.stream(*wanted);
-    if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
-      return refuse(*refusal, 0);
-    }
-    lines.push_back(table_.begin(*wanted));
+    return lines;
+  }
+  const auto begun = unit_.stream(wanted);
+  if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
+    return refuse(*refusal, 0);
+  }
+  const std::string columns = table_.begin(wanted);
+  lines.push_back(plot ? plot->heading() : columns);
+  if (plot) {
+    plot_.emplace(*plot);
   }
   return lines;
 }

@@ -17,8 +17,19 @@ namespace {
 constexpr std::array<const char*, link::channel_count> channel_words = {
     "friction_force", "sliding_velocity", "amplitude", "commanded_ratio", "target", "state"};
 
-std::string column_of(std::size_t channel, const UnitScales& scales) {
-  switch (static_cast<link::Channel>(channel)) {
+/// What 1 of `commanded_ratio` is of its full scale.
+constexpr double full_ratio = 2.0;
+
+std::string text_of(std::size_t channel, std::uint32_t value, const UnitScales& scales) {
+  const auto shown = static_cast<link::Channel>(channel);
+  return shown == link::Channel::codes ? text_of_codes(value)
+                                       : fmt::format("{}", value_of(shown, value, scales));
+}
+
+}  // namespace
+
+std::string column_of(link::Channel channel, const UnitScales& scales) {
+  switch (channel) {
     case link::Channel::friction_force:
       return scales.column_of(link::Quantity::friction_force);
     case link::Channel::sliding_velocity:
@@ -35,25 +46,41 @@ std::string column_of(std::size_t channel, const UnitScales& scales) {
   return "state,limit,fault,settling";
 }
 
-std::string text_of(std::size_t channel, std::uint32_t value, const UnitScales& scales) {
-  switch (static_cast<link::Channel>(channel)) {
+double value_of(link::Channel channel, std::uint32_t value, const UnitScales& scales) {
+  switch (channel) {
     case link::Channel::friction_force:
-      return scales.text_of(link::Quantity::friction_force, value);
+      return scales.value_of(link::Quantity::friction_force, value);
     case link::Channel::sliding_velocity:
-      return scales.text_of(link::Quantity::sliding_velocity, value);
+      return scales.value_of(link::Quantity::sliding_velocity, value);
     case link::Channel::amplitude:
-      return scales.text_of(link::Quantity::amplitude, value);
+      return scales.value_of(link::Quantity::amplitude, value);
     case link::Channel::target:
-      return fmt::format("{}", scales.target_of(value));
+      return scales.target_of(value);
     case link::Channel::commanded_ratio:
-      return fmt::format("{}", static_cast<std::int32_t>(value) * 0x1p-30);
+      return static_cast<std::int32_t>(value) * 0x1p-31 * full_ratio;
     case link::Channel::codes:
       break;
   }
-  return text_of_codes(value);
+  return value;
 }
 
-}  // namespace
+double full_scale_of(link::Channel channel, const UnitScales& scales) {
+  switch (channel) {
+    case link::Channel::friction_force:
+      return scales[link::Quantity::friction_force].value;
+    case link::Channel::sliding_velocity:
+      return scales[link::Quantity::sliding_velocity].value;
+    case link::Channel::amplitude:
+      return scales[link::Quantity::amplitude].value;
+    case link::Channel::target:
+      return scales[link::Quantity::target].value;
+    case link::Channel::commanded_ratio:
+      return full_ratio;
+    case link::Channel::codes:
+      break;
+  }
+  return 0.0;
+}
 
 std::optional<link::Stream> stream_of(const std::vector<std::string>& words) {
   link::Stream stream{0, 1};
@@ -101,7 +128,7 @@ std::string StreamTable::begin(const link::Stream& stream) {
   std::string columns = "number,period";
   for (std::size_t i = 0; i < link::channel_count; ++i) {
     if ((stream.channels >> i & 1U) != 0) {
-      columns += "," + column_of(i, scales_);
+      columns += "," + column_of(static_cast<link::Channel>(i), scales_);
     }
   }
   return columns;

@@ -21,6 +21,15 @@ std::optional<link::Stream> stream_of(const std::vector<std::string>& words);
 /// The names of the channels, a comma and a blank between them.
 std::string channel_names();
 
+/// The heading of its column, with the unit; `state,limit,fault,settling` of the codes.
+std::string column_of(link::Channel channel, const UnitScales& scales);
+
+/// In SI units; the codes as they are.
+double value_of(link::Channel channel, std::uint32_t value, const UnitScales& scales);
+
+/// [SI]; 0 of the codes.
+double full_scale_of(link::Channel channel, const UnitScales& scales);
+
 /// State, limit, fault and settling.
 std::array<std::string, 4> names_of_codes(std::uint32_t codes);
 /// The same, a comma between them.

@@ -260,6 +260,47 @@ TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
   }
 }
 
+TEST_F(ConsoleTest, PlotsAChannelAsItComes) {
+  ask("restart");
+  EXPECT_EQ(
+      ask("plot friction_force"),
+      (Lines{fmt::format("    period          friction_force_N |{:<30}{:>30}|", "0", "0.04")}));
+  Lines rows;
+  while (rows.size() < 3) {
+    const Lines more = console_.take_rows();
+    rows.insert(rows.end(), more.begin(), more.end());
+    ask("status");
+  }
+  // The contact's friction is a part of the full scale, and so is the place of its mark.
+  const std::size_t frame = rows[2].find('|');
+  const double force_N = std::stod(rows[2].substr(frame - 26, 25));
+  EXPECT_NEAR(static_cast<double>(rows[2].find('*') - frame - 1), force_N / 0.04 * 59.0, 0.51)
+      << rows[2];
+  EXPECT_EQ(rows[2].size(), frame + 62);
+  EXPECT_EQ(ask("stream off").back().find("stream off, samples lost: "), 0U);
+  for (const char* wrong : {"plot state", "plot speed", "plot off"}) {
+    EXPECT_EQ(line_of(wrong).find(fmt::format("\"{}\": allowed: plot CHANNEL; channels: ", wrong)),
+              0U);
+  }
+}
+
+TEST(LivePlotTest, WhatIsBeyondIsAtTheEdge) {
+  const UnitScales scales(app::full_scales);
+  const LivePlot velocity(link::Channel::sliding_velocity, scales);
+  const LivePlot amplitude(link::Channel::amplitude, scales);
+  const auto row = [](const LivePlot& plot, std::size_t channel, std::int32_t code) {
+    link::Streamed sample{0, static_cast<std::uint8_t>(1U << channel), 7, {}};
+    sample.values.at(channel) = static_cast<std::uint32_t>(code);
+    const std::string text = plot.row(sample);
+    return text.substr(text.find('|'));
+  };
+  EXPECT_EQ(row(velocity, 1, INT32_MIN), fmt::format("|*{:59}|", ""));
+  EXPECT_EQ(row(velocity, 1, 0), fmt::format("|{:30}*{:29}|", "", ""));
+  EXPECT_EQ(row(amplitude, 2, -1), fmt::format("|<{:59}|", ""));
+  EXPECT_EQ(row(amplitude, 2, INT32_MAX), fmt::format("|{:59}*|", ""));
+  EXPECT_EQ(velocity.stream().every, 6000);
+}
+
 class TraceConsole : public ConsoleTest {
  protected:
   ~TraceConsole() override { std::filesystem::remove(file_); }
@@ -444,7 +485,7 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
       "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
-      "set NAME VALUE, stream CHANNEL ... [every N], stream off, trace, trace now, "
+      "set NAME VALUE, stream CHANNEL ... [every N], stream off, plot CHANNEL, trace, trace now, "
       "trace on fault|target [STEPS_BEFORE], trace save FILE, step FROM TO [FILE], help";
   EXPECT_EQ(line_of("help"), commands);
   EXPECT_EQ(line_of(" go  now "), "\"go now\": unknown; there are: " + commands);
