@@ -56,7 +56,7 @@ std::string all_but(const std::set<std::string>& files) {
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  if (argc > 1) {
+  if (argc > 1 && std::string_view(argv[1]) != "--help") {
     const std::string filter = GTEST_FLAG_GET(filter);
     const bool excludes = filter.find('-') != std::string::npos;
     GTEST_FLAG_SET(filter, filter + (excludes ? "" : "-") + all_but(files_of(argv[1])));

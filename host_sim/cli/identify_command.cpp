@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <cstdlib>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,16 +24,6 @@ struct IdentifyOptions {
   std::vector<std::string> laws;
   StudyOptions study;
 };
-
-std::function<std::string(const std::string&)> in_range(const impedance::Range& range) {
-  return [range](const std::string& text) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0' && value >= range.least && value <= range.most
-               ? std::string()
-               : fmt::format("\"{}\"; allowed: {:g} to {:g}", text, range.least, range.most);
-  };
-}
 
 /// Throws scene_file::SceneError, loop::ComputationError, process::FileError,
 /// process::ProcessError; in each case nothing was written.
@@ -74,16 +62,18 @@ void add_impedance_command(CLI::App& group) {
       "Equivalent circuit of a transducer from a measured sweep of its impedance", *options,
       "The sweep: a table with named columns, Touchstone .s1p, or the text of an "
       "Agilent 4294A");
-  CLI::Option* mass = command
-                          ->add_option("--mass-kg", options->fact.mass_kg,
-                                       "The moving mass, from which the force factor follows")
-                          ->type_name("M")
-                          ->check(in_range(impedance::mass_range_kg));
+  CLI::Option* mass =
+      command
+          ->add_option("--mass-kg", options->fact.mass_kg,
+                       "The moving mass, from which the force factor follows")
+          ->type_name("M")
+          ->check(in_range(impedance::mass_range_kg.least, impedance::mass_range_kg.most));
   command
       ->add_option("--force-factor-N-per-V", options->fact.force_factor_N_per_V,
                    "The force factor, from which the moving mass follows")
       ->type_name("N")
-      ->check(in_range(impedance::force_factor_range_N_per_V))
+      ->check(in_range(impedance::force_factor_range_N_per_V.least,
+                       impedance::force_factor_range_N_per_V.most))
       ->excludes(mass);
   add_study_options(*command, options->study,
                     "report.html, identify.json, fit.csv and, with a mechanical fact, scene.toml "

@@ -25,6 +25,7 @@ struct ImageOptions {
   SceneOptions scene;
   std::string board;
   std::string out;  ///< empty: out/<scene name>_<board>/unit or lockstep, and the usual ending
+  double encoder_counts_per_m = 0.0;  ///< 0: none
   bool lockstep = false;
   bool quiet = false;
 };
@@ -112,12 +113,33 @@ emulated::UnitBoard board_of(const ImageOptions& options) {
   return board;
 }
 
+/// @throws CLI::ValidationError  nothing would read it
+void require_encoder(const emulated::UnitBoard& board, const experiment::Experiment& experiment) {
+  if (!board.reads_encoder) {
+    std::string allowed;
+    for (const emulated::UnitBoard& each : emulated::unit_boards()) {
+      allowed += each.reads_encoder ? fmt::format(" {}", each.name) : "";
+    }
+    throw CLI::ValidationError(
+        "--encoder", fmt::format("{} reads no encoder; allowed: --board{}", board.name, allowed));
+  }
+  if (!experiment.nominal.controller->texture) {
+    throw CLI::ValidationError(
+        "--encoder",
+        "the scene has no texture, which alone lies along an encoder; allowed: "
+        "controller.target_texture in the scene");
+  }
+}
+
 /// Nothing is written unless all of it can be.
 void image(const ImageOptions& options) {
   const emulated::UnitBoard board = board_of(options);
   const emulated::UnitFile& file = file_of(options, board);
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();
+  if (options.encoder_counts_per_m > 0.0) {
+    require_encoder(board, experiment);
+  }
   const std::string header =
       options.lockstep ? input.with_places([&] { return emulated::controller_header(experiment); })
                        : unit_header(input, experiment, board);
@@ -125,8 +147,8 @@ void image(const ImageOptions& options) {
   const std::filesystem::path absolute = std::filesystem::absolute(path);
   const std::string name = absolute.filename().string();
   output::OutputFolder folder(absolute.parent_path(), {name});
-  const std::filesystem::path built =
-      input.with_places([&] { return emulated::build_unit(board, header); });
+  const std::filesystem::path built = input.with_places(
+      [&] { return emulated::build_unit(board, header, options.encoder_counts_per_m); });
   const emulated::ImageCost cost = emulated::measure_image(built, board);
   const std::string steps =
       options.quiet || options.lockstep
@@ -157,8 +179,15 @@ void add_image_command(CLI::App& program) {
           "The image [out/<scene name>_<board>/unit.uf2, lockstep.uf2, or .elf where a board takes none]")
       ->type_name("FILE.elf|.uf2|.bin")
       ->check(not_empty("a file"));
-  command->add_flag("--lockstep", options->lockstep,
-                    "In place of the unit the image that pil --port runs");
+  CLI::Option* lockstep = command->add_flag("--lockstep", options->lockstep,
+                                            "In place of the unit the image that pil --port runs");
+  command
+      ->add_option("--encoder", options->encoder_counts_per_m,
+                   "Counts in a metre of the encoder that the texture lies along "
+                   "[none: it lies along the sensed velocity]")
+      ->type_name("COUNTS_PER_M")
+      ->check(in_range(1.0, 1e12))
+      ->excludes(lockstep);
   command->add_flag("--quiet", options->quiet, "No notes, and no word on the image");
   command->callback([options] { image(*options); });
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 #include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/program.hpp"
@@ -96,6 +97,20 @@ std::function<std::string(const std::string&)> one_of(const std::vector<std::str
     return std::find(words.begin(), words.end(), text) != words.end()
                ? std::string()
                : fmt::format("\"{}\"; allowed: {}", text, fmt::join(words, ", "));
+  };
+}
+
+std::function<std::string(const std::string&)> in_range(double least, double most) {
+  return [least, most](const std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') {
+      return fmt::format("\"{}\" is not a number; allowed: a number, {:g} to {:g}", text, least,
+                         most);
+    }
+    return value >= least && value <= most
+               ? std::string()
+               : fmt::format("{} is out of range; allowed: {:g} to {:g}", text, least, most);
   };
 }
 

@@ -83,6 +83,9 @@ std::function<std::string(const std::string&)> not_empty(const std::string& allo
 /// A check of an option that takes one of these words.
 std::function<std::string(const std::string&)> one_of(const std::vector<std::string>& words);
 
+/// A check of an option that takes a number in these bounds.
+std::function<std::string(const std::string&)> in_range(double least, double most);
+
 /// What is wrong with a text as a whole number in these bounds; empty for one.
 std::string check_whole(const std::string& text, std::uint64_t least, std::uint64_t most);
 

@@ -112,12 +112,13 @@ std::vector<fs::path> image_sources(const fs::path& tree) {
 
 /// What an image is made of, as a name for it.
 std::string key_of(const ImageBoard& board, std::string_view suffix, const std::string& header,
-                   const fs::path& tree, const fs::path& compiler) {
+                   const std::string& encoder, const fs::path& tree, const fs::path& compiler) {
   process::ContentHash hash;
   hash.add(board.name);
   hash.add(board.toolchain);
   hash.add(suffix);
   hash.add(header);
+  hash.add(encoder);
   for (const fs::path& source : image_sources(tree)) {
     hash.add(source.string());
     hash.add(content(tree / source));
@@ -159,8 +160,13 @@ std::string image_name(std::string_view suffix) {
   return fmt::format("{}{}", controller_name, suffix);
 }
 
+/// As CMake takes it; empty: there is none.
+std::string encoder_text(double counts_per_m) {
+  return counts_per_m > 0.0 ? fmt::format("{:.17g}", counts_per_m) : "";
+}
+
 void compile(const ImageBoard& board, std::string_view suffix, const std::string& header,
-             const fs::path& tree, const fs::path& folder) {
+             const std::string& encoder, const fs::path& tree, const fs::path& folder) {
   const fs::path controller = folder / controller_name;
   fs::create_directory(controller);
   write_file(controller / controller_header_name, header);
@@ -169,7 +175,8 @@ void compile(const ImageBoard& board, std::string_view suffix, const std::string
   process::run_tool({"cmake", "-G", "Ninja", "-S", tree.string(), "-B", build,
                      "-DCMAKE_TOOLCHAIN_FILE=" + toolchain.string(),
                      fmt::format("-DSONOGLIDE_BOARD={}", board.name),
-                     "-DSONOGLIDE_CONTROLLERS=" + controller.string()});
+                     "-DSONOGLIDE_CONTROLLERS=" + controller.string(),
+                     "-DSONOGLIDE_ENCODER_COUNTS_PER_M=" + encoder});
   process::run_tool({"cmake", "--build", build, "--target", image_name(suffix)});
 }
 
@@ -194,8 +201,8 @@ fs::path npm_folder() {
 
 }  // namespace
 
-fs::path build_image(const ImageBoard& board, std::string_view suffix,
-                     const std::string& header) try {
+fs::path build_image(const ImageBoard& board, std::string_view suffix, const std::string& header,
+                     double encoder_counts_per_m) try {
   const fs::path tree = source_tree();
   const CrossTools tools = cross_tools(board);
   process::require_program("cmake", "cmake");
@@ -204,12 +211,13 @@ fs::path build_image(const ImageBoard& board, std::string_view suffix,
   const fs::path cache = cache_folder();
   require_for_cmake(tree);
   require_for_cmake(cache);
-  const std::string key = key_of(board, suffix, header, tree, compiler);
+  const std::string encoder = encoder_text(encoder_counts_per_m);
+  const std::string key = key_of(board, suffix, header, encoder, tree, compiler);
   fs::create_directories(cache);
   fs::path image = find_image(cache, key);
   if (image.empty()) {
     const process::ScratchFolder folder(cache);  // beside its target: the move there is a renaming
-    compile(board, suffix, header, tree, folder.path());
+    compile(board, suffix, header, encoder, tree, folder.path());
     const fs::path built = folder.path() / "build/bin" / (image_name(suffix) + ".elf");
     // Somebody else may have done the same meanwhile, and may do so now: either image serves.
     image = find_image(cache, key);

@@ -64,17 +64,18 @@ std::filesystem::path source_tree();
 /// Builds the image of a controller with the toolchain file of a board, out of the source tree that
 /// this program was built from or, where the environment variable SONOGLIDE_SOURCE names one, out
 /// of that. Ready images are kept under $XDG_CACHE_HOME/sonoglide or ~/.cache/sonoglide and found
-/// again by what they are made of: header, board, sources, compiler. The name of each ends with a
+/// again by what they are made of: header, board, encoder, sources, compiler. The name of each ends with a
 /// hash of that and of the image: one that is cut short, or another, is removed and built anew.
 ///
 /// @param suffix  which of the board's images: tools/cmake/boards.cmake adds it to the controller's name
 /// @param header  as controller_header() writes it
+/// @param encoder_counts_per_m  of the encoder that the board reads; 0: none
 /// @return the image, an ELF file
 /// @throws process::ProcessError  the compiler, CMake or the sources are missing, a path is none
 ///         that CMake takes, or the build failed; what() says what to install, or has the build's
 ///         own words
 std::filesystem::path build_image(const ImageBoard& board, std::string_view suffix,
-                                  const std::string& header);
+                                  const std::string& header, double encoder_counts_per_m = 0.0);
 
 /// The command that runs one of a board's programs for node.
 /// @throws process::ProcessError  node lacks the package that emulates the board

@@ -51,7 +51,8 @@ std::vector<UnitBoard> boards_of_products() {
        false,
        {{elf, nucleo, verify, true}, {bin, nucleo, " 0x08000000 verify reset exit", true}},
        "",
-       "84 MHz / n, n from 960 on"},
+       "84 MHz / n, n from 960 on",
+       true},
   };
 }
 
@@ -127,9 +128,10 @@ void require_unit(const scene::Scene& scene, const UnitBoard& board) {
   require_arithmetic(scene, board);
 }
 
-fs::path build_unit(const UnitBoard& board, const std::string& header) {
+fs::path build_unit(const UnitBoard& board, const std::string& header,
+                    double encoder_counts_per_m) {
   try {
-    return build_image(board, board.image_suffix, header);
+    return build_image(board, board.image_suffix, header, encoder_counts_per_m);
   } catch (const process::ProcessError& error) {
     if (const auto refused = refusal(error.what(), board)) {
       throw *refused;

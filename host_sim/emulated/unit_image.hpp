@@ -26,6 +26,7 @@ struct UnitBoard : ImageBoard {
   std::vector<UnitFile> files;     ///< the usual one first
   std::string_view uf2_chip = {};  ///< as hal/pico/write_uf2 calls it, where there is such a file
   std::string_view carriers = {};  ///< fixed frequencies that it makes, as its page has them
+  bool reads_encoder = false;      ///< along the sliding
 
   /// @return the kind of a file's ending, or null
   const UnitFile* file(std::string_view ending) const;
@@ -44,7 +45,8 @@ void require_unit(const scene::Scene& scene, const UnitBoard& board);
 /// @throws configure::ConfigurationError  the image itself refuses the scene when it is compiled, or
 ///         is too large for the board
 /// @throws process::ProcessError  as build_image()
-std::filesystem::path build_unit(const UnitBoard& board, const std::string& header);
+std::filesystem::path build_unit(const UnitBoard& board, const std::string& header,
+                                 double encoder_counts_per_m = 0.0);
 
 /// The content of a file that the board is loaded from.
 /// @param image   an ELF file

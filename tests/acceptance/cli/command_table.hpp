@@ -45,7 +45,7 @@ inline const std::vector<Command> command_table = {
     {"image",
      "closed.toml",
      "--board mps2-an386",
-     {"--set", "--board", "--out", "--lockstep", "--quiet"},
+     {"--set", "--board", "--out", "--lockstep", "--encoder", "--quiet"},
      "",
      {},
      {},

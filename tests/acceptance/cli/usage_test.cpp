@@ -129,7 +129,7 @@ TEST(UsageTest, WhatAMessageAllowsOfAnOptionIsAccepted) {
       }
     }
   }
-  EXPECT_EQ(fed_back, 22);
+  EXPECT_EQ(fed_back, 24);
 }
 
 TEST(UsageTest, WordsOfTheUserReachTheTerminalPrintable) {

@@ -159,6 +159,33 @@ TEST_F(ImageCommandTest, WhatCannotBeAUnitIsNamedByItsKey) {
   }
 }
 
+constexpr const char* textured =
+    " --set controller.target_friction_ratio= --set 'controller.target_texture={ period_m = 1e-3, "
+    "ratio = [0.5, 0.64, 0.7, 0.64, 0.5, 0.36, 0.3, 0.36] }'";
+
+TEST_F(ImageCommandTest, ATextureMayLieAlongAnEncoder) {
+  const std::string image = image_of("target_step", "nucleo-g474re") + textured + " --quiet";
+  built(image + " --out sensed.bin");
+  built(image + " --encoder 1e6 --out counted.bin");
+  built(image + " --encoder 2e6 --out finer.bin");
+  EXPECT_GT(folder_.read("counted.bin").size(), folder_.read("sensed.bin").size());
+  EXPECT_NE(folder_.read("finer.bin"), folder_.read("counted.bin"));
+  expect_refused(image + " --encoder 1e3 --out other.bin", 2,
+                 "controller.target_texture: the encoder of this board counts too little or too "
+                 "much of a period_m; allowed: 8 to 2^30 counts (nucleo-g474re)");
+}
+
+TEST_F(ImageCommandTest, AnEncoderThatNothingReadsIsRefused) {
+  const std::string image = image_of("target_step", "nucleo-g474re");
+  expect_refused(image + " --encoder 1e6", 2,
+                 "--encoder: the scene has no texture, which alone lies along an encoder; allowed: "
+                 "controller.target_texture in the scene");
+  expect_refused(image_of("target_step", "mps2-an386") + textured + " --encoder 1e6", 2,
+                 "--encoder: mps2-an386 reads no encoder; allowed: --board nucleo-g474re");
+  expect_refused(image + textured + " --encoder 0.5", 2, "--encoder: ");
+  expect_refused(image + textured + " --encoder 1e6 --lockstep", 2, "excludes");
+}
+
 TEST_F(ImageCommandTest, KnowsBoardsAndTheFilesOfEach) {
   expect_refused(image_of("target_step", "uno"), 2,
                  "\"uno\" is no board; allowed: pico, pico2, nucleo-g474re, microbit, ");
