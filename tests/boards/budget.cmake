@@ -73,6 +73,16 @@ sonoglide_feature_image(tracking "calibration_s = 0.5e-3" "friction = \"tracked\
 sonoglide_feature_image(no_slew_limit "max_force_slew_N_per_s = 10e6" "")
 sonoglide_feature_image(felt_mode "max_force_slew_N_per_s = 10e6" ""
   "[controller]" "[controller]\nvibration = \"damped\"")
+# A contact that slides through its presliding distance in 7.9 carrier periods, and one that does in 4.0, which is
+# too prompt for a lead.
+set(stiffness_slow_contact 5.6e3)
+set(stiffness_prompt_contact 11e3)
+foreach(image slow_contact prompt_contact)
+  sonoglide_feature_image(${image} "max_force_slew_N_per_s = 10e6" ""
+    "[controller]" "[controller]\nvibration = \"damped\""
+    "contact_stiffness_N_per_m = 0.056e6" "contact_stiffness_N_per_m = ${stiffness_${image}}"
+    "calibration_s = 0.5e-3" "calibration_s = 1.5e-3")
+endforeach()
 sonoglide_feature_image(coulomb "\"dahl\"" "\"coulomb\"" "contact_stiffness_N_per_m = 0.056e6" "")
 # A natural mode at 2.01 carrier frequencies under a drive that ramps, where the gain of the feedback adapts; it does
 # not where the mode loses a fifth of its free vibration in a period.

@@ -118,6 +118,8 @@ const std::vector<Feature>& features() {
        "FrictionTracking"},
       {"felt mode", "felt_mode", "no_slew_limit", "vibration/sensorless_vibration.hpp",
        "SensorlessVibration"},
+      {"contact lead", "slow_contact", "prompt_contact", "feedback/contact_lead.hpp",
+       "ContactLead"},
       {"slew limit", "every_part", "no_slew_limit", "limits/slew_limit.hpp", "control::SlewLimit"},
       {"dahl map", "every_part", "coulomb", "friction/dahl_feedforward.hpp", "DahlFeedforward"},
   };
