@@ -120,6 +120,19 @@ TEST(RandomLoopsTest, BringADampedVibrationToItsVelocityWithinAMillisecond) {
   EXPECT_EQ(found, 2);
 }
 
+TEST(RandomLoopsTest, TellATargetThatNoClosedContactReachesFromARingingRatio) {
+  const auto steps = [](std::uint32_t index) {
+    return outcome(seed, index, Vibration::all_means, {"run.settling_band=0.02"}).steps;
+  };
+  const StepOutcome opens = steps(210).at(0);
+  EXPECT_EQ(opens.metrics.limit, control::Limit::contact_lost);
+  EXPECT_TRUE(opens.no_vibration);
+  for (const StepOutcome& rings : steps(897)) {
+    EXPECT_FALSE(rings.settled());
+    EXPECT_FALSE(rings.no_vibration);
+  }
+}
+
 TEST(RandomLoopsTest, DependOnSeedAndNumberAlone) {
   const std::string text = scene_text(random_loop(seed, 42));
   random_loop(seed, 7);

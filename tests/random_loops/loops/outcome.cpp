@@ -10,6 +10,7 @@
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/loop/steady/requirement.hpp"
 #include "host_sim/report/step_metrics.hpp"
 
 namespace sonoglide::random_loops {
@@ -33,6 +34,14 @@ Verdict verdict(const StepOutcome& step, const std::optional<double>& settling_t
   return step.named() ? Verdict::never_named : Verdict::never_unnamed;
 }
 
+/// By the closed form of the law, with the true contact; the band is not reached either.
+bool no_vibration_gives(const scene::Scene& scene, double target) {
+  const double sliding_m_per_s = scene.sliding.fastest_m_per_s();
+  return target < 1.0 &&
+         steady::closed_form_vibration(scene, sliding_m_per_s, target).friction_ratio >
+             target + scene.run.settling_band;
+}
+
 void run_loop(const experiment::Experiment& experiment, Outcome& outcome) {
   const scene::Scene& scene = experiment.plant;
   report::StepMeter meter(scene, *experiment.design);
@@ -49,6 +58,7 @@ void run_loop(const experiment::Experiment& experiment, Outcome& outcome) {
     }
     step.at_end =
         step.settled() && spans[i].begin_s + *steps[i].settling_time_s > spans[i].quarter_s;
+    step.no_vibration = !step.settled() && no_vibration_gives(scene, steps[i].target);
     outcome.steps.push_back(step);
   }
 }

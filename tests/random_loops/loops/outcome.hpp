@@ -28,6 +28,7 @@ struct StepOutcome {
   Verdict verdict = Verdict::never_unnamed;
   Verdict velocity_verdict = Verdict::never_unnamed;  ///< of the vibration, where it is damped
   bool at_end = false;  ///< settled, but only in the last quarter: a swing may have ended inside
+  bool no_vibration = false;  ///< never settled, and none with a closed contact would do
 
   bool named() const;
   bool settled() const { return metrics.settling_time_s.has_value(); }

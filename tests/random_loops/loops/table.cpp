@@ -87,7 +87,8 @@ struct Counts {
 };
 
 bool out_of_reach(const StepOutcome& step, Verdict verdict) {
-  return verdict == Verdict::never_named && step.metrics.limit == control::Limit::actuator;
+  return verdict == Verdict::never_named &&
+         (step.metrics.limit == control::Limit::actuator || step.no_vibration);
 }
 
 /// Why a step never settles that the drive could reach.

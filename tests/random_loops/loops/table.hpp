@@ -24,7 +24,8 @@ namespace sonoglide::random_loops {
 ///     prompt, late    settled within 1 ms, or after
 ///     at_end          of these, settled only in the step's last quarter
 ///     never_named     not settled, with a limit or a fault
-///     out_of_reach    of these, with the limit actuator
+///     out_of_reach    of these, with the limit actuator, or to a target that no vibration gives which
+///                     leaves the contact closed
 ///     not_settling, mismatch, ratio_end, fault
 ///                     of these, with that limit, or with a fault
 ///     never_unnamed   not settled, without
