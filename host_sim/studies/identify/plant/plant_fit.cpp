@@ -18,6 +18,10 @@ namespace {
 
 constexpr double open = std::numeric_limits<double>::quiet_NaN();
 
+// How far the springs are tried whose modes noise hides: of the logarithm, to either side.
+constexpr double first_reach = 0.06;
+constexpr double widest_reach = 8.0 * first_reach;
+
 /// The friction limit follows from the readings without a drive, whatever else the plant is.
 /// @throws loop::ComputationError  they are those of no sliding contact
 Eigen::VectorXd with_undriven_friction(const PlantProblem& problem,
@@ -122,6 +126,31 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) 
        {!fit.converged, "The fit has not converged: no value is sure."}});
 }
 
+/// Springs that the readings do not tell from that of the fit: as far from it as there are others, but not beyond
+/// the range that is tried.
+std::vector<Eigen::VectorXd> possible_springs(const PlantProblem& problem,
+                                              const LeastSquaresFit& fit,
+                                              const Deviations& deviations, SpringScan scan,
+                                              PlantFit& found) {
+  std::vector<Eigen::VectorXd> possible = scan.possible(fit, deviations);
+  const auto is_cut = [&] {
+    return !possible.empty() && (scan.is_end(possible.front()) || scan.is_end(possible.back()));
+  };
+  double reach = first_reach;
+  while (is_cut() && reach < widest_reach) {
+    reach *= 2.0;
+    scan = SpringScan(problem, fit, reach);
+    possible = scan.possible(fit, deviations);
+  }
+  found.identification.cannot_tell.push_back(fmt::format(
+      "{}: noise hides the natural mode, so that the levels of friction alone tell the spring. Springs from {:.2g} to "
+      "{:.2g} times the one found were tried{}; one beyond, such as on the other side of the carrier frequency, may "
+      "give the same levels. Readings with less noise would tell.",
+      problem.unknowns().front().key, std::exp(-reach), std::exp(reach),
+      is_cut() ? ", and the last of them are as possible" : ""));
+  return possible;
+}
+
 }  // namespace
 
 PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
@@ -133,7 +162,7 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
                [&](double part) { progress(0.5 * part); });
   std::optional<SpringScan> scan;
   if (!swings_are_plain(problem, fit, expected.deviation())) {
-    scan.emplace(problem, fit);
+    scan.emplace(problem, fit, first_reach);
     const LeastSquaresFit another = problem.fit(scan->best(), PlantProblem::all_steps);
     if (another.sum_of_squares < fit.sum_of_squares) {
       fit = problem.polished(another);
@@ -146,8 +175,9 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
   found.expected_rms = expected.deviation();
   const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
   add_estimates(problem, fit,
-                scan ? scan->possible(fit, deviations) : std::vector<Eigen::VectorXd>(), deviations,
-                found);
+                scan ? possible_springs(problem, fit, deviations, *scan, found)
+                     : std::vector<Eigen::VectorXd>(),
+                deviations, found);
   add_warnings(fit, readings(stretches.front()).mean(), found);
   Eigen::Index first = 0;
   for (const Stretch& each : stretches) {

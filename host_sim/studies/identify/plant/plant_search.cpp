@@ -82,12 +82,13 @@ bool swings_are_plain(const PlantProblem& problem, const LeastSquaresFit& fit, d
          plainly * variance * static_cast<double>(calm.size()) * std::log(n);
 }
 
-SpringScan::SpringScan(const PlantProblem& problem, const LeastSquaresFit& fit)
-    : places_(2 * to_a_side + 1, {0.0, fit.parameters}) {
+SpringScan::SpringScan(const PlantProblem& problem, const LeastSquaresFit& fit, double reach)
+    : places_(2 * static_cast<std::size_t>(std::lround(reach / step)) + 1, {0.0, fit.parameters}) {
+  const std::size_t to_a_side = places_.size() / 2;
   const auto damping = problem.index_of(damping_key);
   tbb::parallel_for(std::size_t{0}, places_.size(), [&](std::size_t i) {
     Place& place = places_[i];
-    place.parameters(0) += step * (static_cast<double>(i) - to_a_side);
+    place.parameters(0) += step * (static_cast<double>(i) - static_cast<double>(to_a_side));
     place.parameters(damping) =
         std::log(problem.unknowns()[static_cast<std::size_t>(damping)].unit);
     place.parameters = problem.adjusted(place.parameters, 1, PlantProblem::all_steps);
@@ -116,6 +117,10 @@ std::vector<Eigen::VectorXd> SpringScan::possible(const LeastSquaresFit& fit,
     }
   }
   return all;
+}
+
+bool SpringScan::is_end(const Eigen::VectorXd& parameters) const {
+  return parameters == places_.front().parameters || parameters == places_.back().parameters;
 }
 
 }  // namespace sonoglide::identify::plant

@@ -26,17 +26,20 @@ bool swings_are_plain(const PlantProblem& problem, const LeastSquaresFit& fit, d
 /// it, but for a mode that rings on through every stretch.
 class SpringScan {
  public:
-  SpringScan(const PlantProblem& problem, const LeastSquaresFit& fit);
+  /// @param reach  to either side, of the logarithm of the spring
+  SpringScan(const PlantProblem& problem, const LeastSquaresFit& fit, double reach);
 
   const Eigen::VectorXd& best() const;
 
-  /// Those that the readings do not tell from the fit. The largest of so many sums of as many squares of noise as a
-  /// mode has numbers is by more above the true one's than where a single mode is in question.
+  /// Those that the readings do not tell from the fit, in their order. The largest of so many sums of as many
+  /// squares of noise as a mode has numbers is by more above the true one's than where a single mode is in question.
   std::vector<Eigen::VectorXd> possible(const LeastSquaresFit& fit,
                                         const Deviations& deviations) const;
 
+  /// A spring at the end of the scan, beyond which others may be as possible.
+  bool is_end(const Eigen::VectorXd& parameters) const;
+
  private:
-  static constexpr int to_a_side = 240;
   static constexpr double step = 2.5e-4;
   struct Place {
     double sum_of_squares;
