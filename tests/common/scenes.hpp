@@ -16,6 +16,17 @@ contact_stiffness_N_per_m = 0.056e6
 velocity_m_per_s = 0.0267
 )";
 
+/// The same with dry friction.
+inline const std::string coulomb_plant = R"([plant]
+mass_kg = 0.02
+stiffness_N_per_m = 133e6
+[friction]
+law = "coulomb"
+coefficient = 0.1
+[sliding]
+velocity_m_per_s = 0.0267
+)";
+
 /// Without [run].
 inline const std::string table_1_open_loop = table_1_plant + R"([drive]
 frequency_Hz = 60e3

@@ -115,15 +115,7 @@ target_friction_ratio = [[0.0, 0.5]]
 vibration = "velocity"
 )";
 
-inline const std::string coulomb_closed_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "coulomb"
-coefficient = 0.1
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
+inline const std::string coulomb_closed_loop = coulomb_plant + R"([drive]
 frequency_Hz = 60e3
 max_force_amplitude_N = 1920.0
 )" + control_of_1_ms;

@@ -25,10 +25,10 @@ void expect_same_scene_again(const scene::Scene& scene) {
 }
 
 TEST(EchoTest, IsTheSameSceneAgain) {
-  for (const char* text :
-       {shortest_open_loop, fullest_open_loop, curve_open_loop, bristles_open_loop,
-        springs_open_loop, normal_open_loop, profiles_open_loop, transducer_open_loop,
-        transducer_closed_loop, shortest_closed_loop, fullest_closed_loop}) {
+  for (const std::string& text : std::vector<std::string>{
+           shortest_open_loop, fullest_open_loop, curve_open_loop, bristles_open_loop,
+           springs_open_loop, normal_open_loop, profiles_open_loop, transducer_open_loop,
+           transducer_closed_loop, shortest_closed_loop, fullest_closed_loop}) {
     expect_same_scene_again(read_text(text, "s"));
   }
   expect_same_scene_again(read_text(fullest_open_loop, "s", {"sliding.profile=[[1, 2]]"}));

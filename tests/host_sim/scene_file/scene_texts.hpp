@@ -95,16 +95,7 @@ record_interval_s = 1e-5
 )";
 
 /// Nothing that has a default.
-inline constexpr const char* shortest_open_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[run]
+inline const std::string shortest_open_loop = table_1_plant + R"([run]
 duration_s = 2e-3
 )";
 
@@ -242,15 +233,7 @@ voltage_amplitude_V = 10
 duration_s = 2e-3
 )";
 
-inline constexpr const char* transducer_closed_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "coulomb"
-coefficient = 0.1
-[sliding]
-velocity_m_per_s = 0.0267
-[transducer]
+inline const std::string transducer_closed_loop = coulomb_plant + R"([transducer]
 force_factor_N_per_V = 16
 clamped_capacitance_F = 2e-6
 [drive]
@@ -274,15 +257,7 @@ target_texture = { period_m = 1e-4, ratio = [0.4, 0.6, 0.5] }
 )";
 
 /// Nothing that has a default.
-inline constexpr const char* shortest_closed_loop = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "coulomb"
-coefficient = 0.1
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
+inline const std::string shortest_closed_loop = coulomb_plant + R"([drive]
 frequency_Hz = 60e3
 max_force_amplitude_N = 1920
 [run]

@@ -7,23 +7,12 @@
 
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene_file/reader.hpp"
+#include "tests/common/scenes.hpp"
 
 namespace sonoglide::scene_file::tolerances_test {
 namespace {
 
-const std::string scene_text = R"([plant]
-mass_kg = 0.02
-stiffness_N_per_m = 133e6
-[friction]
-law = "dahl"
-coefficient = 0.1
-contact_stiffness_N_per_m = 0.056e6
-[sliding]
-velocity_m_per_s = 0.0267
-[drive]
-frequency_Hz = 60e3
-max_force_amplitude_N = 1920
-[run]
+const std::string scene_text = table_1_closed_loop + R"([run]
 duration_s = 1e-3
 [controller]
 arithmetic = "float32"

@@ -31,6 +31,12 @@ namespace sonoglide::app::scene_units_test {
 
 using Pages = hal::timed::VolatilePages;
 
+/// FieldDesign of the controller that is compiled in as a namespace.
+#define SONOGLIDE_FIELD_DESIGN(configured)                                                       \
+  FieldDesign<configured::Parts>(configured::parameters, first_target(configured::target_steps), \
+                                 configured::design, configured::full_scales,                    \
+                                 configured::step_period_s, 0)
+
 /// A carrier period without a sample, for a stop or an order of a unit that does not drive.
 template <class UnitT>
 void pass(UnitT& unit) {

@@ -29,10 +29,7 @@ namespace {
 
 using Parts = configuration::Parts;
 
-constexpr FieldDesign<Parts> design(configuration::parameters,
-                                    first_target(configuration::target_steps),
-                                    configuration::design, configuration::full_scales,
-                                    configuration::step_period_s, 0);
+constexpr auto design = SONOGLIDE_FIELD_DESIGN(configuration);
 
 struct Over {};
 

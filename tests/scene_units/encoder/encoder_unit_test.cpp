@@ -81,31 +81,21 @@ std::vector<std::string> textured(std::vector<std::string> changes) {
   return changes;
 }
 
+/// Of a scene, whose controller is compiled in.
+#define SONOGLIDE_BOTH(scene, counts_per_m, changes)                               \
+  of<counts_per_m>(#scene, changes, SONOGLIDE_FIELD_DESIGN(scene##_configuration), \
+                   scene##_configuration::parameters, scene##_configuration::target_steps)
+
 Both of_target_step(const std::vector<std::string>& changes) {
-  namespace configuration = target_step_configuration;
-  constexpr FieldDesign<configuration::Parts> design(
-      configuration::parameters, first_target(configuration::target_steps), configuration::design,
-      configuration::full_scales, configuration::step_period_s, 0);
-  return of<25'000'000>("target_step", textured(changes), design, configuration::parameters,
-                        configuration::target_steps);
+  return SONOGLIDE_BOTH(target_step, 25'000'000, textured(changes));
 }
 
 Both of_speed_reversal(const std::vector<std::string>& changes) {
-  namespace configuration = speed_reversal_configuration;
-  constexpr FieldDesign<configuration::Parts> design(
-      configuration::parameters, first_target(configuration::target_steps), configuration::design,
-      configuration::full_scales, configuration::step_period_s, 0);
-  return of<25'000'000>("speed_reversal", textured(changes), design, configuration::parameters,
-                        configuration::target_steps);
+  return SONOGLIDE_BOTH(speed_reversal, 25'000'000, textured(changes));
 }
 
 Both of_fingertip(const std::vector<std::string>& changes) {
-  namespace configuration = fingertip_configuration;
-  constexpr FieldDesign<configuration::Parts> design(
-      configuration::parameters, first_target(configuration::target_steps), configuration::design,
-      configuration::full_scales, configuration::step_period_s, 0);
-  return of<1'000'000>("fingertip", changes, design, configuration::parameters,
-                       configuration::target_steps);
+  return SONOGLIDE_BOTH(fingertip, 1'000'000, changes);
 }
 
 void expect_in_place(const Rendered& rendered, double amplitude_error, double lag_deg) {

@@ -335,15 +335,9 @@ void expect_traces_are_periods(const std::string& file, const FieldDesign<Parts>
   }
 }
 
-#define DESIGN(scene)                                                                       \
-  constexpr FieldDesign<scene##_configuration::Parts> scene(                                \
-      scene##_configuration::parameters, first_target(scene##_configuration::target_steps), \
-      scene##_configuration::design, scene##_configuration::full_scales,                    \
-      scene##_configuration::step_period_s, 0)
-
-DESIGN(target_step);
-DESIGN(force_target);
-DESIGN(slow_mode);
+constexpr auto target_step = SONOGLIDE_FIELD_DESIGN(target_step_configuration);
+constexpr auto force_target = SONOGLIDE_FIELD_DESIGN(force_target_configuration);
+constexpr auto slow_mode = SONOGLIDE_FIELD_DESIGN(slow_mode_configuration);
 
 TEST(TracedUnit, HoldsAFrictionRatioAsInPeriodsCsv) {
   expect_traces_are_periods(SONOGLIDE_TARGET_STEP, target_step);
