@@ -151,16 +151,16 @@ std::vector<std::pair<std::string, std::vector<std::string>>> lines_by_table(
   return tables;
 }
 
-/// What to write into a scene that has none of the recommended means.
+/// What to write into a scene that has none of the recommended means: TOML, to be pasted table by table.
 Advice keys_advice(const RecommendedLoop& loop) {
   std::string sentence =
-      "The scene has none of drive.interpolation, drive.bias_limit_N and controller.vibration. Write";
-  for (const auto& [table, lines] : lines_by_table(loop)) {
-    sentence += fmt::format(" below [{}]: {};", table, fmt::join(lines, "; "));
-  }
-  sentence.back() = '.';
+      "The scene has none of drive.interpolation, drive.bias_limit_N and controller.vibration. ";
   if (!loop.leaves.empty()) {
-    sentence += fmt::format(" Remove {}.", fmt::join(loop.leaves, ", "));
+    sentence += fmt::format("Remove {}. ", fmt::join(loop.leaves, ", "));
+  }
+  sentence += "Write below the header of each table, in place of what it has of these keys:";
+  for (const auto& [table, lines] : lines_by_table(loop)) {
+    sentence += fmt::format("\n[{}]\n{}", table, fmt::join(lines, "\n"));
   }
   return {"Keys", sentence};
 }

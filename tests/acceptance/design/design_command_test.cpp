@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -76,6 +78,30 @@ TEST(DesignCommand, ContactsWithoutASteadyOrbitAreRejected) {
   expect_scene_error("--set drive.waveform=square", "--set:1:1: drive.waveform: ");
   expect_scene_error("--set 'friction.normal_force_profile_N=[[0,0.2],[1e-3,0.3]]'",
                      "--set:1:1: friction.normal_force_profile_N: a design is for a plant");
+}
+
+TEST(DesignCommand, ItsKeysCanBePastedBelowTheHeadersOfAScene) {
+  ScratchFolder folder;
+  folder.write("scene.toml", scene);
+  const Outcome outcome = folder.run("design scene.toml --ratio 0.5 --velocity 0.02672:0.02672");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t keys = outcome.out.find("\n[", outcome.out.find("\nKeys: ")) + 1;
+  std::istringstream lines(outcome.out.substr(keys, outcome.out.find("\nController: ") + 1 - keys));
+  std::string pasted = scene;
+  std::string header;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.front() == '[') {
+      header = line + '\n';
+    } else {
+      pasted.insert(pasted.find(header) + header.size(), line + '\n');
+    }
+  }
+  folder.write("pasted.toml", pasted);
+  const Outcome run = folder.run("run pasted.toml --json");
+  ASSERT_EQ(run.exit_code, 0) << pasted << run.err;
+  const auto controller = nlohmann::json::parse(run.out)["scene"]["controller"];
+  EXPECT_EQ(controller["vibration"], "damped") << pasted;
+  EXPECT_EQ(controller["friction"], "calibrated");
 }
 
 // The range of a target is in its own unit.

@@ -208,10 +208,11 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       "drive.codes_per_period = 8, controller.friction = \"calibrated\": the ramp hardly excites "
       "the mode, whatever the stiffness. Of 8 plants"))
       << text;
-  EXPECT_TRUE(
-      says("Keys: The scene has none of drive.interpolation, drive.bias_limit_N and "
-           "controller.vibration. Write below [drive]: interpolation = \"linear\"; "
-           "codes_per_period = 8; below [controller]: friction = \"calibrated\".\n"))
+  EXPECT_TRUE(says(
+      "Keys: The scene has none of drive.interpolation, drive.bias_limit_N and "
+      "controller.vibration. Write below the header of each table, in place of what it has of these "
+      "keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
+      "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
   const auto json = to_json(study)["natural_mode"];
