@@ -46,9 +46,11 @@ void require_trackable(const scene::Scene& scene, const ControlDesign& design) {
                scene::name_of(scene::vibration_controls, *controller.vibration)));
   }
   if (scene.drive->bias_limit_N > 0.0) {
-    refuse("controller.friction",
-           "\"tracked\" is not for a drive with drive.bias_limit_N; allowed: \"trusted\", "
-           "\"calibrated\"");
+    refuse(
+        "controller.friction",
+        "\"tracked\" takes the mean force of a few carrier periods for the friction, and the slow mode "
+        "that drive.bias_limit_N is for swings for longer; allowed: \"trusted\", \"calibrated\", or "
+        "drive.bias_limit_N = 0");
   }
   if (controller.arithmetic == scene::Arithmetic::q15) {
     refuse("controller.arithmetic",

@@ -99,6 +99,11 @@ const std::vector<BrokenScene> broken_scenes = {
      "19:12: controller.friction: \"tracked\" compares the force with the ratio that the amplitude is fed "
      "forward for, and with controller.vibration = \"damped\" an observer moves the amplitude; allowed: "
      "\"trusted\", \"calibrated\", or no controller.vibration"},
+    {"tracked_with_a_bias", tracked_loop, "frequency_Hz = 60e3\nmax_force_amplitude_N = 1920.0",
+     "frequency_Hz = 200e3\nmax_force_amplitude_N = 19200.0\nbias_limit_N = 1",
+     "18:12: controller.friction: \"tracked\" takes the mean force of a few carrier periods for the "
+     "friction, and the slow mode that drive.bias_limit_N is for swings for longer; allowed: \"trusted\", "
+     "\"calibrated\", or drive.bias_limit_N = 0"},
     // Names
     {"unknown_key_near", open_loop, "mass_kg = 0.02", "mas_kg = 0.02",
      "2:1: plant.mas_kg: unknown key; did you mean mass_kg?"},
