@@ -81,6 +81,26 @@ class FrictionEstimate {
   /// Of ln Fc, ln Kt and ln g.
   const Each& variance() const { return variance_; }
 
+  /// The same of Fc; of Kt and g for a gain that may be another than was known at the start. With P0 the
+  /// variance of ln g there, an error ε of it is left in what the readings have made of ln x (Schmidt 1966,
+  /// ../README.md):
+  ///   cov(ln x, ln g)/P0 ε,  at most 0.7, ε of a standard deviation of 0.11.
+  /// 0.11 holds a gain that is 15 % off, and a little more for what is not linear in it.
+  Each stated_variance() const {
+    constexpr Scalar unforeseen = numeric::from_real<Scalar>(0.11);
+    const auto share =
+        numeric::quotient(numeric::floating(unforeseen), numeric::floating(parameters_.gain));
+    const auto left = [&](Scalar covariance) {
+      constexpr Scalar most = numeric::from_real<Scalar>(0.7);
+      const Scalar error =
+          numeric::clamp_magnitude(numeric::limited_product(covariance, share), most);
+      return times(error, error);
+    };
+    const Scalar of_start = numeric::min(variance_.gain, parameters_.gain);
+    return {variance_.force, limited(variance_.stiffness + left(stiffness_gain_)),
+            limited(variance_.gain + left(of_start))};
+  }
+
   /// The most that a variance may be.
   static constexpr Scalar most_variance() { return numeric::from_real<Scalar>(0.5); }
 

@@ -30,6 +30,15 @@ double real_of(const numeric::Floating<Scalar>& x) {
   }
 }
 
+/// Deviations that the controller tells.
+template <class Loop>
+Vector stated_deviations(const Loop& loop) {
+  const auto variance = loop.controller.relearning().variance();
+  return {std::sqrt(numeric::to_real(variance.force)),
+          std::sqrt(numeric::to_real(variance.stiffness)),
+          std::sqrt(numeric::to_real(variance.gain))};
+}
+
 /// In deviations of what the controller tells.
 template <class Loop>
 Vector deviations_off(const Loop& loop, const Design& design, const Contact& truth) {
@@ -38,11 +47,10 @@ Vector deviations_off(const Loop& loop, const Design& design, const Contact& tru
   const double gain = 1.0 / real_of<Scalar>(tracking.inverse_gain());
   const double stiffness = design.contact_force * real_of<Scalar>(tracking.contact()) / gain;
   const double force = numeric::to_real(loop.controller.friction_level().force());
-  const auto variance = tracking.variance();
-  return {
-      std::log(force / truth.friction_force) / std::sqrt(numeric::to_real(variance.force)),
-      std::log(stiffness / truth.contact_force) / std::sqrt(numeric::to_real(variance.stiffness)),
-      std::log(gain / truth.gain) / std::sqrt(numeric::to_real(variance.gain))};
+  const Vector stated = stated_deviations(loop);
+  return {std::log(force / truth.friction_force) / stated[0],
+          std::log(stiffness / truth.contact_force) / stated[1],
+          std::log(gain / truth.gain) / stated[2]};
 }
 
 }  // namespace sonoglide::control
