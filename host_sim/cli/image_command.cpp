@@ -137,12 +137,12 @@ void image(const ImageOptions& options) {
   const emulated::UnitFile& file = file_of(options, board);
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();
-  if (options.encoder_counts_per_m > 0.0) {
-    require_encoder(board, experiment);
-  }
   const std::string header =
       options.lockstep ? input.with_places([&] { return emulated::controller_header(experiment); })
                        : unit_header(input, experiment, board);
+  if (options.encoder_counts_per_m > 0.0) {
+    require_encoder(board, experiment);
+  }
   const std::filesystem::path path = path_of(options, experiment.plant.name, file);
   const std::filesystem::path absolute = std::filesystem::absolute(path);
   const std::string name = absolute.filename().string();

@@ -90,19 +90,17 @@ class Port {
   bool holds_force() const { return scales_.holds_force(); }
 
   py::dict step(double from, double to) {
-    const auto [trace, response] = recorded_step(count_of(from), count_of(to));
+    const auto [step, response] = recorded_step(count_of(from), count_of(to));
     py::dict told;
+    told["settled_before"] = step.settled_before;
     told["friction_force_before_N"] = response.before_N;
     told["friction_force_after_N"] = response.after_N;
     told["ripple_N"] = response.ripple_N;
-    const auto tell = [&](const char* name, const std::optional<double>& value) {
-      told[name] = value ? py::object(py::float_(*value)) : py::object(py::none());
-    };
-    const auto course = response.course.value_or(unit::StepCourse{});
-    tell("rise_s", course.rise_s);
-    tell("settling_s", course.settling_s);
-    tell("overshoot", response.course ? std::optional(course.overshoot) : std::nullopt);
-    told["trace"] = columns_of(trace);
+    const auto& course = response.course;
+    told["rise_s"] = course ? std::optional(course->rise_s) : std::nullopt;
+    told["settling_s"] = course ? course->settling_s : std::nullopt;
+    told["overshoot"] = course ? std::optional(course->overshoot) : std::nullopt;
+    told["trace"] = columns_of(step.trace);
     return told;
   }
 
@@ -152,15 +150,13 @@ class Port {
     return scales_.count_of_parameter(target_parameter, target);
   }
 
-  std::pair<unit::RecordedTrace, unit::StepResponse> recorded_step(std::uint32_t from,
-                                                                   std::uint32_t to) try {
-    if (from == to) {
-      throw std::invalid_argument("from and to are one target; allowed: two");
-    }
+  std::pair<unit::RecordedStep, unit::StepResponse> recorded_step(std::uint32_t from,
+                                                                  std::uint32_t to) try {
     const py::gil_scoped_release released;
     const std::lock_guard turn(turn_);
-    const auto trace = unit::StepRecorder(link_, scales_).step_between(from, to);
-    return {trace, unit::step_response(trace, scales_)};
+    auto step = unit::StepRecorder(link_, scales_).step_between(from, to);
+    const auto response = unit::step_response(step.trace, scales_);
+    return {std::move(step), response};
   } catch (const unit::UnitRefusal& refusal) {
     if (refusal.out_of_range()) {
       throw std::invalid_argument(refusal.what());
@@ -255,7 +251,8 @@ void add_port(py::module_& module) {
       .def(
           "step", &Port::step, py::arg("from_target"), py::arg("to_target"),
           "step(self, from_target, to_target)\n--\n\nHow the friction force goes from one target, once the loop has "
-          "settled there,\nto another, which stays; the drive runs. friction_force_before_N, friction_force_after_N, "
+          "settled there\n(settled_before), to another, which stays; the drive runs. friction_force_before_N,\n"
+          "friction_force_after_N, "
           "ripple_N;\nrise_s from 10 to 90 %, settling_s to 5 % and overshoot, parts of the step, None where there "
           "are none;\ntrace, lists by column: time_s since the new target, then as status().")
       .def("stop", &Port::stop, "stop(self)\n--\n\nDrive to zero at once.")

@@ -74,7 +74,11 @@ std::string Console::help_text() {
 std::vector<std::string> Console::carry_out(const std::string& line) {
   std::istringstream text(line);
   Words words;
-  for (std::string word; text >> std::quoted(word);) {
+  while (!(text >> std::ws).eof()) {
+    std::string word;
+    if (!(text >> std::quoted(word))) {
+      return refuse(fmt::format("{}: a quotation mark is not closed", line));
+    }
     words.push_back(word);
   }
   if (words.empty()) {

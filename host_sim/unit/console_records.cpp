@@ -1,6 +1,8 @@
 // The commands that record what a unit does: stream, trace and step.
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -96,28 +98,25 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
 }
 
 Console::Lines Console::step(const Words& words) {
-  std::uint32_t targets[2];
-  for (std::size_t i = 0; i < 2; ++i) {
+  std::array<std::uint32_t, 2> targets{};
+  for (std::size_t i = 0; i < targets.size(); ++i) {
     const ReadValue value = read_value(words[i], target_parameter, scales_);
     if (!value.error.empty()) {
       return refuse_value(target_parameter, value.error);
     }
-    targets[i] = value.count;
-  }
-  if (targets[0] == targets[1]) {
-    return refuse_usage("step", words, "; FROM and TO are two targets");
+    targets.at(i) = value.count;
   }
   try {
     std::optional<TraceFile> file;
     if (words.size() == 3) {
       file.emplace(words[2]);
     }
-    const RecordedTrace trace = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
-    const StepResponse response = step_response(trace, scales_);
+    const RecordedStep step = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
+    const StepResponse response = step_response(step.trace, scales_);
     if (file) {
-      file->write(trace, scales_, response);
+      file->write(step.trace, scales_, response);
     }
-    return {text_of(response)};
+    return {text_of(response) + (step.settled_before ? "" : "; the loop had not settled before")};
   } catch (const UnitRefusal& refusal) {
     return refuse(refusal.what());
   } catch (const process::FileError& error) {

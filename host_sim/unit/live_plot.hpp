@@ -31,7 +31,7 @@ class LivePlot {
   double high_;
 };
 
-/// @return nothing where the stream has not one channel with a number
+/// @return nothing unless the stream has exactly one channel, and that has a number
 std::optional<LivePlot> plot_of(const link::Stream& stream, const UnitScales& scales);
 
 }  // namespace sonoglide::unit

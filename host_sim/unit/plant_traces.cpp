@@ -66,9 +66,11 @@ std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<double
   const auto count = [&](double target) {
     return scales.count_of_parameter(target_parameter, target);
   };
-  recorder.hold(count(targets.at(0)));
+  recorder.set_target(count(targets.at(0)));
+  recorder.settle();
   for (std::size_t i = 1; i < targets.size(); ++i) {
     traces.push_back(recorder.step(count(targets[i]), kept_before));
+    recorder.settle();
     tell();
   }
   return traces;

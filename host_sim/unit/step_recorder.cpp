@@ -24,6 +24,16 @@ constexpr auto interval = 5ms;
 
 }  // namespace
 
+template <class Answer, class Request>
+Answer StepRecorder::require(const Request& request, std::size_t parameter) {
+  const auto result = unit_.ask<Answer>(request);
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    throw UnitRefusal("the unit refuses: " + words_of(*refusal, parameter, scales_),
+                      static_cast<link::Reason>(refusal->reason) == link::Reason::out_of_range);
+  }
+  return std::get<Answer>(result);
+}
+
 RecordedTrace StepRecorder::undriven() {
   require<link::Stopped>(link::Stop{});
   wait(calm);
@@ -35,11 +45,6 @@ void StepRecorder::restart() {
   require<link::Restarted>(link::Restart{});
 }
 
-void StepRecorder::hold(std::uint32_t target) {
-  set_target(target);
-  settle();
-}
-
 RecordedTrace StepRecorder::step(std::uint32_t target, std::uint16_t before) {
   arm(link::Trigger::target, before);
   const std::uint32_t armed = telemetry().period;
@@ -49,34 +54,26 @@ RecordedTrace StepRecorder::step(std::uint32_t target, std::uint16_t before) {
        telemetry().period - armed < before && Clock::now() < end;) {
     std::this_thread::sleep_for(interval);
   }
-  set_target(target);
-  RecordedTrace trace = read();
-  if (trace.state.before < before) {
+  if (telemetry().period - armed < before) {
     throw UnitRefusal(fmt::format("the unit takes more than 5 s for {} steps", before));
   }
-  settle();
-  return trace;
+  set_target(target);
+  return read();
 }
 
-RecordedTrace StepRecorder::step_between(std::uint32_t first, std::uint32_t second) {
+RecordedStep StepRecorder::step_between(std::uint32_t first, std::uint32_t second) {
   require_target(first);
   require_target(second);
+  if (first == second) {
+    throw UnitRefusal("both targets are the same; allowed: two different ones", true);
+  }
   const auto before = static_cast<std::uint16_t>(steps_recorded() / 4);
   if (static_cast<control::State>(telemetry().state) == control::State::off) {
     throw UnitRefusal("the drive is off: restart it first");
   }
-  hold(first);
-  return step(second, before);
-}
-
-template <class Answer, class Request>
-Answer StepRecorder::require(const Request& request, std::size_t parameter) {
-  const auto result = unit_.ask<Answer>(request);
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    throw UnitRefusal("the unit refuses: " + words_of(*refusal, parameter, scales_),
-                      static_cast<link::Reason>(refusal->reason) == link::Reason::out_of_range);
-  }
-  return std::get<Answer>(result);
+  set_target(first);
+  const bool settled = settle();
+  return {step(second, before), settled};
 }
 
 void StepRecorder::require_target(std::uint32_t target) {
@@ -123,17 +120,19 @@ void StepRecorder::wait(std::chrono::milliseconds time) {
 }
 
 /// A loop that does not settle is one whose plant may be wanted: it is recorded as it is.
-void StepRecorder::settle() {
+bool StepRecorder::settle() {
+  auto settling = control::Settling::pending;
   for (const auto end = Clock::now() + longest_wait; Clock::now() < end;) {
     const link::Telemetry told = telemetry();
-    const auto state = static_cast<control::State>(told.state);
-    if (state != control::State::calibrating &&
-        static_cast<control::Settling>(told.settling) != control::Settling::pending) {
+    settling = static_cast<control::Settling>(told.settling);
+    if (static_cast<control::State>(told.state) != control::State::calibrating &&
+        settling != control::Settling::pending) {
       break;
     }
     std::this_thread::sleep_for(interval);
   }
   wait(calm);
+  return settling == control::Settling::settled;
 }
 
 RecordedTrace StepRecorder::read() {

@@ -25,6 +25,11 @@ class UnitRefusal : public process::ProcessError {
   bool out_of_range_;
 };
 
+struct RecordedStep {
+  RecordedTrace trace;
+  bool settled_before = false;  ///< the loop, at the first target
+};
+
 /// Drives a unit from target to target and reads its traces. It keeps its limits and finds its faults as ever.
 /// Every function throws process::ProcessError where the unit does not answer, and UnitRefusal.
 class StepRecorder {
@@ -37,11 +42,14 @@ class StepRecorder {
 
   void restart();
 
-  /// Sets a target, and waits until the loop tells whether it settles, 5 s at most.
-  /// @param target  count of millionths
-  void hold(std::uint32_t target);
+  /// Waits until the loop tells whether it settles, 5 s at most, and then until its natural mode is calm.
+  /// @return whether it has settled
+  bool settle();
 
-  /// The steps around a new target. Then it waits as hold() does.
+  /// Sets a target. @param target  count of millionths
+  void set_target(std::uint32_t target);
+
+  /// The steps around a new target.
   /// @param target  count of millionths, another than the one in force
   /// @param before  steps before the new target that are recorded; fewer than the unit records
   RecordedTrace step(std::uint32_t target, std::uint16_t before);
@@ -49,7 +57,7 @@ class StepRecorder {
   /// The step of a running unit from one target to another, after a quarter of the trace at the first. Nothing
   /// is driven where the unit has not both targets, or no trace, or no drive.
   /// @param first, second  counts of millionths, two different ones
-  RecordedTrace step_between(std::uint32_t first, std::uint32_t second);
+  RecordedStep step_between(std::uint32_t first, std::uint32_t second);
 
  private:
   template <class Answer, class Request>
@@ -57,11 +65,9 @@ class StepRecorder {
 
   void require_target(std::uint32_t target);
   std::uint16_t steps_recorded();
-  void set_target(std::uint32_t target);
   void arm(link::Trigger trigger, std::uint16_t before);
   link::Telemetry telemetry();
   void wait(std::chrono::milliseconds time);
-  void settle();
   RecordedTrace read();
 
   UnitLink& unit_;

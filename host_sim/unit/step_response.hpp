@@ -10,10 +10,11 @@
 namespace sonoglide::unit {
 
 /// The course of the friction force from one level to another. Times count from the step of the controller that
-/// is the first to have the new target. They are absent where the trace is over before.
+/// is the first to have the new target.
 struct StepCourse {
-  std::optional<double> rise_s;      ///< from 10 % of the step to 90 %
-  std::optional<double> settling_s;  ///< until it stays within 5 % of the step
+  double rise_s = 0.0;  ///< from 10 % of the step to 90 %
+  std::optional<double>
+      settling_s;          ///< until it stays within 5 % of the step; absent: not in the trace
   double overshoot = 0.0;  ///< farthest beyond the last level, part of the step; 0 or more
 };
 
@@ -21,7 +22,7 @@ struct StepResponse {
   double before_N = 0.0;  ///< mean of the friction force before the new target
   double after_N = 0.0;   ///< of the last quarter of the steps since
   double ripple_N = 0.0;  ///< half peak to peak about these two, the larger of both
-  /// Absent where the levels are less than twice the ripple apart: what is seen then is the ripple.
+  /// Absent where the ripple is 5 % of the step or more: it would be taken for the course.
   std::optional<StepCourse> course;
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<const char*, link::channel_count> channel_words = {
     "friction_force", "sliding_velocity", "amplitude", "commanded_ratio", "target", "state"};
 
-/// What 1 of `commanded_ratio` is of its full scale.
+/// Full scale of `commanded_ratio`.
 constexpr double full_ratio = 2.0;
 
 std::string text_of(std::size_t channel, std::uint32_t value, const UnitScales& scales) {
@@ -75,7 +75,7 @@ double full_scale_of(link::Channel channel, const UnitScales& scales) {
     case link::Channel::target:
       return scales[link::Quantity::target].value;
     case link::Channel::commanded_ratio:
-      return full_ratio;
+      return 1.0;
     case link::Channel::codes:
       break;
   }

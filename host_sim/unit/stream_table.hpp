@@ -27,7 +27,7 @@ std::string column_of(link::Channel channel, const UnitScales& scales);
 /// In SI units; the codes as they are.
 double value_of(link::Channel channel, std::uint32_t value, const UnitScales& scales);
 
-/// [SI]; 0 of the codes.
+/// The largest value that is usual; 0 of the codes.
 double full_scale_of(link::Channel channel, const UnitScales& scales);
 
 /// State, limit, fault and settling.

@@ -10,6 +10,9 @@ namespace sonoglide::unit {
 namespace {
 
 std::filesystem::path new_file(const std::string& name) {
+  if (name.empty()) {
+    process::fail("FILE", "has no name; allowed: a new file");
+  }
   std::filesystem::path path = std::filesystem::absolute(name);
   std::error_code unknown;
   if (path.filename().empty() || std::filesystem::is_directory(path, unknown)) {

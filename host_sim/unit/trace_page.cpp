@@ -54,9 +54,8 @@ class Courses {
             {{"answered", code(link::Quantity::bias, &link::TraceRecord::other), Line::stepped}});
         break;
       case link::TraceExtra::frequency:
-        all.push_back(chart(
-            "Frequency", "[-]",
-            {{"steps of the frequency word above the start's", frequency_steps(), Line::stepped}}));
+        all.push_back(chart("Steps of the frequency word above the start's", "[-]",
+                            {{"answered", frequency_steps(), Line::stepped}}));
         break;
       case link::TraceExtra::none:
         break;
@@ -114,7 +113,9 @@ output::Page page_of(const RecordedTrace& trace, const UnitScales& scales,
   page.lead = fmt::format("A {}, one every {}.", text_of(trace.state),
                           output::quantity(scales.step_s(), "s"));
   if (response) {
-    page.notes.push_back(fmt::format("The {}.", text_of(*response)));
+    std::string sentence = text_of(*response) + ".";
+    sentence.front() = 'T';
+    page.notes.push_back(sentence);
   }
   page.sections.push_back({"Course",
                            "One value for each step of the controller.",

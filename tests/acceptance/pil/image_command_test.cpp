@@ -182,6 +182,8 @@ TEST_F(ImageCommandTest, AnEncoderThatNothingReadsIsRefused) {
                  "controller.target_texture in the scene");
   expect_refused(image_of("target_step", "mps2-an386") + textured + " --encoder 1e6", 2,
                  "--encoder: mps2-an386 reads no encoder; allowed: --board nucleo-g474re");
+  expect_refused(image_of("table_1_open_loop", "nucleo-g474re") + " --encoder 1e6", 2,
+                 ": controller: missing; required: ");
   expect_refused(image + textured + " --encoder 0.5", 2, "--encoder: ");
   expect_refused(image + textured + " --encoder 1e6 --lockstep", 2, "excludes");
 }

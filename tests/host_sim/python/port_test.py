@@ -73,11 +73,12 @@ def test_a_step_is_measured(unit):
     unit.restart()
     with pytest.raises(ValueError, match="target: allowed is .* to 1"):
         unit.step(0.4, 1.5)
-    with pytest.raises(ValueError, match="are one target"):
+    with pytest.raises(ValueError, match="both targets are the same"):
         unit.step(0.4, 0.4)
     step = unit.step(0.4, 0.7)
     assert step["friction_force_before_N"] < step["friction_force_after_N"]
     assert 0.0 < step["rise_s"] < step["settling_s"]
+    assert isinstance(step["settled_before"], bool)
     trace = step["trace"]
     assert len(trace["time_s"]) == len(trace["friction_force_N"]) == 1024
     assert [target for time, target in zip(trace["time_s"], trace["target"]) if time >= 0.0][0] == 0.7

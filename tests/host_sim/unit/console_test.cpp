@@ -388,8 +388,8 @@ TEST_F(TraceConsole, MeasuresAStepAndSavesItsPage) {
   const std::string page = file_ + " a b.html";
   const std::string told = line_of("step 0.4 0.7 \"" + page + '"');
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(told, found,
-                                std::regex("^friction force from ([0-9.]+) mN to ([0-9.]+) mN")))
+  ASSERT_TRUE(std::regex_search(
+      told, found, std::regex("^the friction force goes from ([0-9.]+) mN to ([0-9.]+) mN")))
       << told;
   constexpr double undriven_mN = 40.0 * app::TimedBoard::friction;
   EXPECT_NEAR(std::stod(found[1]), 0.4 * undriven_mN, 0.02 * undriven_mN);
@@ -405,8 +405,11 @@ TEST_F(TraceConsole, MeasuresAStepAndSavesItsPage) {
 
 TEST_F(TraceConsole, AStepThatCannotBeIsRefusedBeforeItIsDriven) {
   ask("restart");
-  EXPECT_EQ(line_of("step 0.4 0.4"),
-            "\"step 0.4 0.4\": allowed: step FROM TO [FILE]; FROM and TO are two targets");
+  EXPECT_EQ(line_of("step 0.4 0.4"), "both targets are the same; allowed: two different ones");
+  EXPECT_EQ(line_of("step 5000 6000"), "target: allowed is 0 to 1");
+  EXPECT_EQ(line_of("step 0.4 0.7 \"x.html"),
+            "step 0.4 0.7 \"x.html: a quotation mark is not closed");
+  EXPECT_EQ(line_of("step 0.4 0.7 \"\""), "FILE: has no name; allowed: a new file");
   EXPECT_EQ(line_of("step 0.4 high"), "target: \"high\" is no number; allowed is 0 to 1");
   EXPECT_EQ(line_of("step 0.4 1.5"), "target: allowed is 0 to 1");
   EXPECT_EQ(line_of("step 0.4 0.5 /dev/null/x.csv"), "/dev/null: is a file, not a folder");

@@ -139,7 +139,7 @@ TEST(CommissionedUnit, AStepOfItsLoopIsMeasured) {
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   std::smatch found;
   const std::regex pattern(
-      "friction force from ([0-9.]+) mN to ([0-9.]+) mN, ripple .* rises in ([0-9.]+) us, within 5 % of "
+      "the friction force goes from ([0-9.]+) mN to ([0-9.]+) mN, ripple .*; 10 to 90 % in ([0-9.]+) us, within 5 % of "
       "the step after ([0-9.]+) (us|ms), overshoot");
   ASSERT_TRUE(std::regex_search(run.out, found, pattern)) << run.out;
   constexpr double undriven_mN = 39.24 * 0.5;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
@@ -126,29 +125,31 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) 
        {!fit.converged, "The fit has not converged: no value is sure."}});
 }
 
-/// Springs that the readings do not tell from that of the fit: as far from it as there are others, but not beyond
-/// the range that is tried.
-std::vector<Eigen::VectorXd> possible_springs(const PlantProblem& problem,
-                                              const LeastSquaresFit& fit,
-                                              const Deviations& deviations, SpringScan scan,
-                                              PlantFit& found) {
-  std::vector<Eigen::VectorXd> possible = scan.possible(fit, deviations);
-  const auto is_cut = [&] {
-    return !possible.empty() && (scan.is_end(possible.front()) || scan.is_end(possible.back()));
-  };
-  double reach = first_reach;
-  while (is_cut() && reach < widest_reach) {
+/// Springs that fit as well as the best one within the noise. The range is doubled while its ends are among them;
+/// where a better spring is met, it is that of the fit.
+std::vector<Eigen::VectorXd> scanned_springs(const PlantProblem& problem,
+                                             const std::vector<Stretch>& stretches,
+                                             const Expected& expected, LeastSquaresFit& fit,
+                                             Identification& told) {
+  PossibleSprings springs;
+  double reach = first_reach / 2.0;
+  do {
     reach *= 2.0;
-    scan = SpringScan(problem, fit, reach);
-    possible = scan.possible(fit, deviations);
-  }
-  found.identification.cannot_tell.push_back(fmt::format(
-      "{}: noise hides the natural mode, so that the levels of friction alone tell the spring. Springs from {:.2g} to "
-      "{:.2g} times the one found were tried{}; one beyond, such as on the other side of the carrier frequency, may "
-      "give the same levels. Readings with less noise would tell.",
+    const SpringScan scan(problem, fit, reach);
+    const LeastSquaresFit another = problem.fit(scan.best(), PlantProblem::all_steps);
+    if (another.sum_of_squares < fit.sum_of_squares) {
+      fit = problem.polished(another);
+    }
+    springs = scan.possible(fit, plant::deviations(fit, problem.slopes(fit), stretches, expected));
+  } while (springs.is_cut && reach < widest_reach);
+  told.cannot_tell.push_back(fmt::format(
+      "{}: noise hides the natural mode, so that the levels of friction alone tell the spring. "
+      "Springs from {:.3g} to {:.3g} times the one found were tried{}; one beyond, such as on the "
+      "other side of the carrier frequency, may give the same levels. Readings with less noise "
+      "would tell.",
       problem.unknowns().front().key, std::exp(-reach), std::exp(reach),
-      is_cut() ? ", and the last of them are as possible" : ""));
-  return possible;
+      springs.is_cut ? ", and the last of them are as possible" : ""));
+  return springs.parameters;
 }
 
 }  // namespace
@@ -160,24 +161,17 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
   LeastSquaresFit fit =
       best_fit(problem, with_undriven_friction(problem, nominal, stretches.front()),
                [&](double part) { progress(0.5 * part); });
-  std::optional<SpringScan> scan;
-  if (!swings_are_plain(problem, fit, expected.deviation())) {
-    scan.emplace(problem, fit, first_reach);
-    const LeastSquaresFit another = problem.fit(scan->best(), PlantProblem::all_steps);
-    if (another.sum_of_squares < fit.sum_of_squares) {
-      fit = problem.polished(another);
-    }
-  }
-  progress(1.0);
   PlantFit found;
   found.identification.subject = "plant";
   found.identification.model = "the plant of the scene";
   found.expected_rms = expected.deviation();
+  std::vector<Eigen::VectorXd> possible;
+  if (!swings_are_plain(problem, fit, expected.deviation())) {
+    possible = scanned_springs(problem, stretches, expected, fit, found.identification);
+  }
+  progress(1.0);
   const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
-  add_estimates(problem, fit,
-                scan ? possible_springs(problem, fit, deviations, *scan, found)
-                     : std::vector<Eigen::VectorXd>(),
-                deviations, found);
+  add_estimates(problem, fit, possible, deviations, found);
   add_warnings(fit, readings(stretches.front()).mean(), found);
   Eigen::Index first = 0;
   for (const Stretch& each : stretches) {

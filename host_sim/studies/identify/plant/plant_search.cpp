@@ -104,23 +104,20 @@ const Eigen::VectorXd& SpringScan::best() const {
       ->parameters;
 }
 
-std::vector<Eigen::VectorXd> SpringScan::possible(const LeastSquaresFit& fit,
-                                                  const Deviations& deviations) const {
+PossibleSprings SpringScan::possible(const LeastSquaresFit& fit,
+                                     const Deviations& deviations) const {
   const double modes = std::log(static_cast<double>(places_.size()));
   const auto numbers = static_cast<double>(fit.parameters.size());
   const double above =
       std::pow(deviations.student, 2) + 2.0 * modes + 2.0 * std::sqrt(numbers * modes);
-  std::vector<Eigen::VectorXd> all;
+  PossibleSprings springs;
   for (const Place& place : places_) {
     if (place.sum_of_squares <= fit.sum_of_squares + above * deviations.variance) {
-      all.push_back(place.parameters);
+      springs.parameters.push_back(place.parameters);
+      springs.is_cut |= &place == &places_.front() || &place == &places_.back();
     }
   }
-  return all;
-}
-
-bool SpringScan::is_end(const Eigen::VectorXd& parameters) const {
-  return parameters == places_.front().parameters || parameters == places_.back().parameters;
+  return springs;
 }
 
 }  // namespace sonoglide::identify::plant

@@ -22,6 +22,11 @@ LeastSquaresFit best_fit(const PlantProblem& problem, const Eigen::VectorXd& sta
 /// @param expected  deviation of a reading
 bool swings_are_plain(const PlantProblem& problem, const LeastSquaresFit& fit, double expected);
 
+struct PossibleSprings {
+  std::vector<Eigen::VectorXd> parameters;
+  bool is_cut = false;  ///< one at an end of the scan is among them
+};
+
 /// Springs about that of a fit, each with the other unknowns and what the stretches swing by as they are best with
 /// it, but for a mode that rings on through every stretch.
 class SpringScan {
@@ -31,13 +36,9 @@ class SpringScan {
 
   const Eigen::VectorXd& best() const;
 
-  /// Those that the readings do not tell from the fit, in their order. The largest of so many sums of as many
-  /// squares of noise as a mode has numbers is by more above the true one's than where a single mode is in question.
-  std::vector<Eigen::VectorXd> possible(const LeastSquaresFit& fit,
-                                        const Deviations& deviations) const;
-
-  /// A spring at the end of the scan, beyond which others may be as possible.
-  bool is_end(const Eigen::VectorXd& parameters) const;
+  /// Those that the readings do not tell from the fit. The largest of so many sums of as many squares of noise as a
+  /// mode has numbers is by more above the true one's than where a single mode is in question.
+  PossibleSprings possible(const LeastSquaresFit& fit, const Deviations& deviations) const;
 
  private:
   static constexpr double step = 2.5e-4;
