@@ -87,10 +87,13 @@ std::optional<configure::ConfigurationError> refusal(const std::string& words,
   if (std::regex_search(words, found, asserted)) {
     const std::string message = found[1];
     if (std::regex_search(message, found, key)) {
+      const std::string named = found.str() + ": ";
+      const std::string reason =
+          message.rfind(named, 0) == 0 ? message.substr(named.size()) : message;
       const bool of_carrier = found.str() == "drive.frequency_Hz" && !board.carriers.empty();
       return configure::ConfigurationError(
           found.str(),
-          fmt::format("{} ({}){}{}", message, board.name, of_carrier ? "; allowed: " : "",
+          fmt::format("{} ({}){}{}", reason, board.name, of_carrier ? "; allowed: " : "",
                       of_carrier ? board.carriers : ""));
     }
   } else if (std::regex_search(words, found, memory)) {

@@ -20,6 +20,7 @@
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/unit/step_recorder.hpp"
 #include "host_sim/unit/step_response.hpp"
+#include "host_sim/unit/stream_table.hpp"
 #include "host_sim/unit/unit_link.hpp"
 #include "host_sim/unit/unit_scales.hpp"
 #include "host_sim/unit/unit_trace.hpp"
@@ -92,7 +93,10 @@ class Port {
   py::dict step(double from, double to) {
     const auto [step, response] = recorded_step(count_of(from), count_of(to));
     py::dict told;
-    told["settled_before"] = step.settled_before;
+    told["settled_before"] = response.settled_before;
+    const auto [state, limit, fault, settling] = unit::names_of_codes(response.end_codes);
+    told["limit"] = limit;
+    told["settling"] = settling;
     told["friction_force_before_N"] = response.before_N;
     told["friction_force_after_N"] = response.after_N;
     told["ripple_N"] = response.ripple_N;
@@ -155,7 +159,7 @@ class Port {
     const py::gil_scoped_release released;
     const std::lock_guard turn(turn_);
     auto step = unit::StepRecorder(link_, scales_).step_between(from, to);
-    const auto response = unit::step_response(step.trace, scales_);
+    const auto response = unit::step_response(step, scales_);
     return {std::move(step), response};
   } catch (const unit::UnitRefusal& refusal) {
     if (refusal.out_of_range()) {
@@ -254,7 +258,7 @@ void add_port(py::module_& module) {
           "settled there\n(settled_before), to another, which stays; the drive runs. friction_force_before_N,\n"
           "friction_force_after_N, "
           "ripple_N;\nrise_s from 10 to 90 %, settling_s to 5 % and overshoot, parts of the step, None where there "
-          "are none;\ntrace, lists by column: time_s since the new target, then as status().")
+          "are none;\nlimit and settling at the end; trace, lists by column: time_s since the new target, then as status().")
       .def("stop", &Port::stop, "stop(self)\n--\n\nDrive to zero at once.")
       .def("restart", &Port::restart,
            "restart(self)\n--\n\nStarts the drive, from a stop, from a fault or from running.")

@@ -112,11 +112,11 @@ Console::Lines Console::step(const Words& words) {
       file.emplace(words[2]);
     }
     const RecordedStep step = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
-    const StepResponse response = step_response(step.trace, scales_);
+    const StepResponse response = step_response(step, scales_);
     if (file) {
       file->write(step.trace, scales_, response);
     }
-    return {text_of(response) + (step.settled_before ? "" : "; the loop had not settled before")};
+    return {text_of(response)};
   } catch (const UnitRefusal& refusal) {
     return refuse(refusal.what());
   } catch (const process::FileError& error) {

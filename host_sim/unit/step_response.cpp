@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host_sim/output/number.hpp"
+#include "host_sim/unit/stream_table.hpp"
 
 namespace sonoglide::unit {
 namespace {
@@ -53,14 +54,20 @@ StepCourse course_of(const std::vector<double>& progress, std::size_t steady, do
 
 }  // namespace
 
-StepResponse step_response(const RecordedTrace& trace, const UnitScales& scales) {
+StepResponse step_response(const RecordedStep& step, const UnitScales& scales) {
+  const RecordedTrace& trace = step.trace;
   const std::vector<double> force_N =
       values_of(trace, scales, link::Quantity::friction_force, &link::TraceRecord::friction_force);
   const auto trigger = force_N.begin() + trace.state.before;
   const auto steady = (force_N.end() - trigger) / 4;
   const Level before = level(force_N.begin(), trigger);
   const Level after = level(force_N.end() - steady, force_N.end());
-  StepResponse response{before.mean_N, after.mean_N, std::max(before.ripple_N, after.ripple_N), {}};
+  StepResponse response{before.mean_N,
+                        after.mean_N,
+                        std::max(before.ripple_N, after.ripple_N),
+                        {},
+                        step.settled_before,
+                        trace.records.back().codes};
   const double step_N = after.mean_N - before.mean_N;
   if (response.ripple_N < band * std::abs(step_N)) {
     std::vector<double> progress;
@@ -71,21 +78,36 @@ StepResponse step_response(const RecordedTrace& trace, const UnitScales& scales)
   return response;
 }
 
-std::string text_of(const StepResponse& response) {
-  const auto force = [](double force_N) { return output::quantity(force_N, "N"); };
-  const std::string levels =
-      fmt::format("the friction force goes from {} to {}, ripple {}", force(response.before_N),
-                  force(response.after_N), force(response.ripple_N));
-  if (!response.course) {
-    return levels + ", which is too much of this step to tell its course";
-  }
-  const StepCourse& course = *response.course;
+namespace {
+
+std::string course_text(const StepCourse& course) {
   const std::string settling = course.settling_s
                                    ? fmt::format("within 5 % of the step after {}",
                                                  output::quantity(*course.settling_s, "s"))
                                    : "not within 5 % of the step before the trace ends";
-  return fmt::format("{}; 10 to 90 % in {}, {}, overshoot {:.1f} %", levels,
+  return fmt::format("10 to 90 % in {}, {}, overshoot {:.1f} %",
                      output::quantity(course.rise_s, "s"), settling, 100.0 * course.overshoot);
+}
+
+/// What the controller says of its loop before and at the end, where that is not that it has settled.
+std::string remarks(const StepResponse& response) {
+  const auto [state, limit, fault, settling] = names_of_codes(response.end_codes);
+  std::string text = response.settled_before ? "" : "; the loop had not settled before";
+  if (limit != "none" || settling != "settled") {
+    text += fmt::format("; it ends {}, with the limit {} and {}", state, limit, settling);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const StepResponse& response) {
+  const auto force = [](double force_N) { return output::quantity(force_N, "N"); };
+  return fmt::format("the friction force goes from {} to {}, ripple {}{}{}",
+                     force(response.before_N), force(response.after_N), force(response.ripple_N),
+                     response.course ? "; " + course_text(*response.course)
+                                     : ", which hides the course of this step",
+                     remarks(response));
 }
 
 }  // namespace sonoglide::unit

@@ -1,11 +1,12 @@
 /// What a trace says of the answer to a new target.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
+#include "host_sim/unit/step_recorder.hpp"
 #include "host_sim/unit/unit_scales.hpp"
-#include "host_sim/unit/unit_trace.hpp"
 
 namespace sonoglide::unit {
 
@@ -24,10 +25,12 @@ struct StepResponse {
   double ripple_N = 0.0;  ///< half peak to peak about these two, the larger of both
   /// Absent where the ripple is 5 % of the step or more: it would be taken for the course.
   std::optional<StepCourse> course;
+  bool settled_before = false;  ///< the loop, at the target before
+  std::uint32_t end_codes = 0;  ///< of the last step, see names_of_codes()
 };
 
-/// @param trace  that a target triggered, with a step or more before that and four or more after it
-StepResponse step_response(const RecordedTrace& trace, const UnitScales& scales);
+/// @param step  with a step of the controller or more before the new target and four or more after it
+StepResponse step_response(const RecordedStep& step, const UnitScales& scales);
 
 /// In a line.
 std::string text_of(const StepResponse& response);

@@ -1,5 +1,6 @@
 #include "host_sim/unit/trace_file.hpp"
 
+#include <string_view>
 #include <system_error>
 
 #include "host_sim/output/page.hpp"
@@ -31,10 +32,12 @@ TraceFile::TraceFile(const std::string& name)
 
 void TraceFile::write(const RecordedTrace& trace, const UnitScales& scales,
                       const std::optional<StepResponse>& response) {
-  const bool is_page = path_.extension() == ".html";
-  folder_.write(path_.filename().string(), is_page
-                                               ? output::to_html(page_of(trace, scales, response))
-                                               : csv_of(trace, scales));
+  constexpr std::string_view ending = ".html";
+  const std::string name = path_.filename().string();
+  const bool is_page = name.size() >= ending.size() &&
+                       name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  folder_.write(
+      name, is_page ? output::to_html(page_of(trace, scales, response)) : csv_of(trace, scales));
   folder_.commit();
 }
 

@@ -44,6 +44,7 @@ scene::Scene fed_forward(scene::Scene scene) {
   scene.plant.initial_displacement_m = 0.0;
   scene.plant.initial_velocity_m_per_s = 0.0;
   scene.friction.initial_force_N = 0.0;
+  scene.model_error.coefficient = 1.0;
   return scene;
 }
 
@@ -202,6 +203,7 @@ scene::FrictionSource friction_source(const scene::Scene& stated, scene::Scene l
 void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
   const configure::RecommendedMeans& means = recommended.means;
   loop.controller->shaping.reset();
+  loop.controller->shaping_range.reset();
   loop.drive->interpolation =
       means.ramped ? scene::Interpolation::linear : scene::Interpolation::step;
   loop.drive->codes_per_period = means.ramped ? configure::ramp_codes : 1;
@@ -244,6 +246,12 @@ std::vector<SceneLine> scene_lines(const scene::Scene& stated, const Recommended
   return lines;
 }
 
+/// A calibration is for a loop whose friction is calibrated, and that needs one.
+bool contradicts_calibration(const scene::Controller& stated, scene::FrictionSource friction) {
+  return stated.calibration_s &&
+         (*stated.calibration_s > 0.0) != (friction == scene::FrictionSource::calibrated);
+}
+
 /// What a scene says otherwise than its recommended loop.
 std::vector<std::string> contradicting_keys(const scene::Scene& stated,
                                             const RecommendedLoop& loop) {
@@ -252,8 +260,10 @@ std::vector<std::string> contradicting_keys(const scene::Scene& stated,
   if (controller.shaping && *controller.shaping != scene::Shaping::notch) {
     keys.emplace_back("controller.shaping");
   }
-  const bool calibrates = controller.calibration_s.value_or(0.0) > 0.0;
-  if (calibrates && loop.friction != scene::FrictionSource::calibrated) {
+  if (controller.shaping_range) {
+    keys.emplace_back("controller.shaping_range");
+  }
+  if (contradicts_calibration(controller, loop.friction)) {
     keys.emplace_back("controller.calibration_s");
   }
   if (controller.relearn_every_s && loop.friction == scene::FrictionSource::tracked) {
@@ -280,11 +290,22 @@ RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nomina
                                  nominal.drive->delay_periods);
   }
   equip(nominal, found);
+  scene::Scene whole = stated;
+  equip(whole, found);
   try {
     found.friction = friction_source(stated, nominal);
+    if (found.friction == scene::FrictionSource::trusted) {
+      nominal.model_error.coefficient = stated.model_error.coefficient;
+    }
+    // What the trials leave out, such as a sliding that turns.
+    whole.controller->friction = found.friction;
+    if (contradicts_calibration(*stated.controller, found.friction)) {
+      whole.controller->calibration_s.reset();
+    }
+    configure::design_control(whole);
     found.plants = try_plants(nominal, stiffness_range);
   } catch (const configure::ConfigurationError& error) {
-    found.refused = error.what();
+    found.refused = fmt::format("{}: {}", error.key(), error.what());
   }
   found.lines = scene_lines(stated, found);
   found.leaves = contradicting_keys(stated, found);
@@ -307,10 +328,11 @@ std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
   return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
 }
 
+/// Beside the friction that the trials know.
 bool has_model_error(const scene::Scene& scene) {
   const scene::ModelError& error = scene.model_error;
-  return error.mass != 1.0 || error.stiffness != 1.0 || error.coefficient != 1.0 ||
-         error.contact_stiffness != 1.0 || error.force_factor != 1.0 || error.damping != 1.0;
+  return error.mass != 1.0 || error.stiffness != 1.0 || error.contact_stiffness != 1.0 ||
+         error.force_factor != 1.0 || error.damping != 1.0;
 }
 
 }  // namespace

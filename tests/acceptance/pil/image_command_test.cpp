@@ -171,7 +171,7 @@ TEST_F(ImageCommandTest, ATextureMayLieAlongAnEncoder) {
   EXPECT_GT(folder_.read("counted.bin").size(), folder_.read("sensed.bin").size());
   EXPECT_NE(folder_.read("finer.bin"), folder_.read("counted.bin"));
   expect_refused(image + " --encoder 1e3 --out other.bin", 2,
-                 "controller.target_texture: the encoder of this board counts too little or too "
+                 ": controller.target_texture: the encoder of this board counts too little or too "
                  "much of a period_m; allowed: 8 to 2^30 counts (nucleo-g474re)");
 }
 

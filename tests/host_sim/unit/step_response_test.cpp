@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "firmware/control/interface/drive_command.hpp"
 #include "host_sim/unit/trace_page.hpp"
 #include "tests/common/constants/pi.hpp"
 #include "tests/firmware/app/unit/simulated_unit.hpp"
@@ -17,12 +18,16 @@ namespace {
 
 constexpr double step_s = app::carrier_period_s;
 constexpr std::uint16_t steps_before = 100;
+constexpr std::uint32_t running = static_cast<std::uint32_t>(control::State::running);
+constexpr std::uint32_t settled = running | static_cast<std::uint32_t>(control::Settling::settled)
+                                                << 24;
 const UnitScales scales(app::full_scales);
 
 /// From 0.01 N to 0.03 N, along a progress from 0 to 1 over the time since the new target.
-RecordedTrace trace_along(std::size_t steps, const std::function<double(double)>& progress,
-                          double ripple_N = 0.0) {
-  RecordedTrace trace{};
+RecordedStep step_along(std::size_t steps, const std::function<double(double)>& progress,
+                        double ripple_N = 0.0) {
+  RecordedStep step{{}, true};
+  RecordedTrace& trace = step.trace;
   trace.state.before = steps_before;
   for (std::size_t i = 0; i < steps; ++i) {
     const double since_s = (static_cast<double>(i) - steps_before) * step_s;
@@ -33,16 +38,17 @@ RecordedTrace trace_along(std::size_t steps, const std::function<double(double)>
     record.friction_force =
         static_cast<std::int32_t>(std::lround(force_N / app::full_scales[0].value * 0x1p31));
     record.target = i < steps_before ? 200'000 : 600'000;
+    record.codes = settled;
     trace.records.push_back(record);
   }
   trace.state.records = static_cast<std::uint16_t>(steps);
-  return trace;
+  return step;
 }
 
 TEST(StepResponse, OfTheFirstOrderIsItsTimeConstant) {
   constexpr double tau_s = 50 * step_s;
   const auto response = step_response(
-      trace_along(2000, [](double t_s) { return 1.0 - std::exp(-t_s / tau_s); }), scales);
+      step_along(2000, [](double t_s) { return 1.0 - std::exp(-t_s / tau_s); }), scales);
   EXPECT_NEAR(response.before_N, 0.01, 1e-9);
   EXPECT_NEAR(response.after_N, 0.03, 1e-9);
   ASSERT_TRUE(response.course);
@@ -56,13 +62,13 @@ TEST(StepResponse, OfTheSecondOrderOvershootsByItsDamping) {
   constexpr double rate_per_s = 0.05 / step_s;
   const double damped_per_s = rate_per_s * std::sqrt(1.0 - damping * damping);
   const auto response = step_response(
-      trace_along(2000,
-                  [&](double t_s) {
-                    return 1.0 -
-                           std::exp(-damping * rate_per_s * t_s) *
-                               (std::cos(damped_per_s * t_s) +
-                                damping * rate_per_s / damped_per_s * std::sin(damped_per_s * t_s));
-                  }),
+      step_along(2000,
+                 [&](double t_s) {
+                   return 1.0 -
+                          std::exp(-damping * rate_per_s * t_s) *
+                              (std::cos(damped_per_s * t_s) +
+                               damping * rate_per_s / damped_per_s * std::sin(damped_per_s * t_s));
+                 }),
       scales);
   ASSERT_TRUE(response.course);
   EXPECT_NEAR(response.course->overshoot,
@@ -71,17 +77,16 @@ TEST(StepResponse, OfTheSecondOrderOvershootsByItsDamping) {
 
 TEST(StepResponse, WhatTheRippleHidesHasNoCourse) {
   const auto at_once = [](double) { return 1.0; };
-  EXPECT_TRUE(step_response(trace_along(400, at_once, 0.0009), scales).course);
-  const auto hidden = step_response(trace_along(400, at_once, 0.0011), scales);
+  EXPECT_TRUE(step_response(step_along(400, at_once, 0.0009), scales).course);
+  const auto hidden = step_response(step_along(400, at_once, 0.0011), scales);
   EXPECT_FALSE(hidden.course);
-  EXPECT_NE(text_of(hidden).find(", which is too much of this step to tell its course"),
-            std::string::npos);
+  EXPECT_NE(text_of(hidden).find(", which hides the course of this step"), std::string::npos);
 }
 
 TEST(StepResponse, WhatTheTraceIsTooShortForIsSaid) {
   // Its last quarter begins 6 % below the level that is its mean, and ripples by less than 5 %.
   const auto slow = [](double t_s) { return t_s < 280 * step_s ? 0.92 : 1.0; };
-  const auto response = step_response(trace_along(steps_before + 300, slow), scales);
+  const auto response = step_response(step_along(steps_before + 300, slow), scales);
   ASSERT_TRUE(response.course);
   EXPECT_FALSE(response.course->settling_s);
   EXPECT_NE(text_of(response).find("not within 5 % of the step before the trace ends"),
@@ -89,9 +94,23 @@ TEST(StepResponse, WhatTheTraceIsTooShortForIsSaid) {
       << text_of(response);
 }
 
+// A level that is no target is not told as one.
+TEST(StepResponse, SaysWhereTheLoopEnds) {
+  RecordedStep step = step_along(400, [](double) { return 1.0; });
+  EXPECT_EQ(text_of(step_response(step, scales)).find("settled"), std::string::npos);
+  step.settled_before = false;
+  step.trace.records.back().codes = static_cast<std::uint32_t>(control::State::limited) |
+                                    static_cast<std::uint32_t>(control::Limit::actuator) << 8;
+  const std::string told = text_of(step_response(step, scales));
+  EXPECT_NE(told.find("; the loop had not settled before; it ends limited, with the limit actuator "
+                      "and pending"),
+            std::string::npos)
+      << told;
+}
+
 TEST(TracePage, ShowsWhatWasReadAndAnswered) {
-  const RecordedTrace trace = trace_along(400, [](double) { return 1.0; });
-  const output::Page page = page_of(trace, scales, step_response(trace, scales));
+  const RecordedStep step = step_along(400, [](double) { return 1.0; });
+  const output::Page page = page_of(step.trace, scales, step_response(step, scales));
   ASSERT_EQ(page.sections.size(), 1U);
   const auto& charts = page.sections[0].charts;
   ASSERT_EQ(charts.size(), 4U);

@@ -165,16 +165,36 @@ TEST(NaturalModeTest, TellsTheLinesThatASceneLacks) {
   scene::Scene scene = table_1();
   scene.controller->arithmetic = scene::Arithmetic::q15;
   scene.controller->shaping = scene::Shaping::robust;
+  scene.controller->shaping_range = 0.02;
   scene.controller->calibration_s = 0.5e-3;
   const RecommendedLoop other = study_of(scene).recommended_loop;
   EXPECT_TRUE(other.unnamed);
   EXPECT_EQ(lines_of(other),
             "controller.vibration = \"damped\"\ncontroller.friction = \"calibrated\"\n"
             "controller.arithmetic = \"q31\"\n");
-  EXPECT_EQ(other.leaves, std::vector<std::string>{"controller.shaping"});
+  EXPECT_EQ(other.leaves,
+            (std::vector<std::string>{"controller.shaping", "controller.shaping_range"}));
   scene.controller->vibration = scene::VibrationControl::damped;
   scene.controller->arithmetic = scene::Arithmetic::q31;
   EXPECT_FALSE(study_of(scene).recommended_loop.unnamed);
+}
+
+// What it calibrates is no error of its model.
+TEST(NaturalModeTest, ALoopThatLearnsItsFrictionIsTriedSo) {
+  scene::Scene scene = table_1();
+  scene.controller->calibration_s = 0.5e-3;
+  const RecommendedLoop exact = study_of(scene).recommended_loop;
+  scene.model_error.coefficient = 1.3;
+  const NaturalModeStudy off = study_of(scene);
+  EXPECT_EQ(off.recommended_loop.friction, scene::FrictionSource::calibrated);
+  EXPECT_EQ(off.recommended_loop.plants.settled, exact.plants.settled);
+  EXPECT_FALSE(off.model_error);
+}
+
+TEST(NaturalModeTest, WhatTheSceneCannotHaveIsSaid) {
+  scene::Scene scene = table_1();
+  scene.sliding.profile = {{0.0, 0.02672}, {3e-3, -0.02672}};
+  EXPECT_NE(study_of(scene).recommended_loop.refused.find("sliding.profile"), std::string::npos);
 }
 
 TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
@@ -210,8 +230,8 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       << text;
   EXPECT_TRUE(says(
       "Keys: The scene has none of drive.interpolation, drive.bias_limit_N and "
-      "controller.vibration. Write below the header of each table, in place of what it has of these "
-      "keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
+      "controller.vibration. Remove controller.calibration_s. Write below the header of each table, "
+      "in place of what it has of these keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
       "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
@@ -220,7 +240,8 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   const auto& written = json["recommended_loop"]["write"];
   EXPECT_EQ(written["drive"][0], "interpolation = \"linear\"");
   EXPECT_EQ(written["controller"][0], "friction = \"calibrated\"");
-  EXPECT_TRUE(json["recommended_loop"]["remove"].empty());
+  // It is 0.
+  EXPECT_EQ(json["recommended_loop"]["remove"].dump(), R"(["controller.calibration_s"])");
   EXPECT_EQ(json["carriers"].size(), study.natural_mode->carriers.size());
 }
 
