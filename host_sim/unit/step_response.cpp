@@ -94,7 +94,8 @@ std::string remarks(const StepResponse& response) {
   const auto [state, limit, fault, settling] = names_of_codes(response.end_codes);
   std::string text = response.settled_before ? "" : "; the loop had not settled before";
   if (limit != "none" || settling != "settled") {
-    text += fmt::format("; it ends {}, with the limit {} and {}", state, limit, settling);
+    text +=
+        fmt::format("; at its end the loop is {}, limit {}, settling {}", state, limit, settling);
   }
   return text;
 }

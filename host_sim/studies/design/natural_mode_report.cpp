@@ -153,12 +153,12 @@ std::vector<std::pair<std::string, std::vector<std::string>>> lines_by_table(
 
 /// What to write into a scene that has none of the recommended means: TOML, to be pasted table by table.
 Advice keys_advice(const RecommendedLoop& loop) {
-  std::string sentence =
-      "The scene has none of drive.interpolation, drive.bias_limit_N and controller.vibration. ";
+  std::string sentence = "For the recommended loop ";
   if (!loop.leaves.empty()) {
-    sentence += fmt::format("Remove {}. ", fmt::join(loop.leaves, ", "));
+    sentence += fmt::format("remove {}, and ", fmt::join(loop.leaves, ", "));
   }
-  sentence += "Write below the header of each table, in place of what it has of these keys:";
+  sentence +=
+      "write these lines below the header of each table, in place of lines with the same keys:";
   for (const auto& [table, lines] : lines_by_table(loop)) {
     sentence += fmt::format("\n[{}]\n{}", table, fmt::join(lines, "\n"));
   }

@@ -102,8 +102,8 @@ TEST(StepResponse, SaysWhereTheLoopEnds) {
   step.trace.records.back().codes = static_cast<std::uint32_t>(control::State::limited) |
                                     static_cast<std::uint32_t>(control::Limit::actuator) << 8;
   const std::string told = text_of(step_response(step, scales));
-  EXPECT_NE(told.find("; the loop had not settled before; it ends limited, with the limit actuator "
-                      "and pending"),
+  EXPECT_NE(told.find("; the loop had not settled before; at its end the loop is limited, limit "
+                      "actuator, settling pending"),
             std::string::npos)
       << told;
 }

@@ -229,9 +229,8 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       "the mode, whatever the stiffness. Of 8 plants"))
       << text;
   EXPECT_TRUE(says(
-      "Keys: The scene has none of drive.interpolation, drive.bias_limit_N and "
-      "controller.vibration. Remove controller.calibration_s. Write below the header of each table, "
-      "in place of what it has of these keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
+      "Keys: For the recommended loop remove controller.calibration_s, and write these lines below "
+      "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
       "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
