@@ -268,9 +268,20 @@ std::optional<std::string> function_begun(const std::string& line) {
   return line.substr(bracket + 2, line.size() - bracket - 4);
 }
 
+/// A constructor has two names in the C++ ABI (Itanium, 5.1.4.3), C1 and C2, for one function where there are no
+/// virtual bases, and a destructor D1 and D2. The disassembly has one of them, a veneer may be called by the other.
+std::string other_name(std::string name) {
+  for (const char* const base : {"C2E", "D2E"}) {
+    if (const std::size_t at = name.rfind(base); at != std::string::npos) {
+      name[at + 1] = '1';
+    }
+  }
+  return name;
+}
+
 /// The linker's way to a function that a branch does not reach is called `__<function>_veneer`: its one jump, through
 /// a word beside it, leads there.
-void see_through_veneer(const std::string& name, Function& function) {
+void see_through_veneer(const std::string& name, const Functions& all, Function& function) {
   const std::string beginning = "__";
   const std::string ending = "_veneer";
   const bool is_veneer = starts_with(name, beginning.c_str()) &&
@@ -278,8 +289,9 @@ void see_through_veneer(const std::string& name, Function& function) {
                          name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
   if (is_veneer) {
     function.doubt.clear();
-    function.calls = {
-        name.substr(beginning.size(), name.size() - beginning.size() - ending.size())};
+    const std::string target =
+        name.substr(beginning.size(), name.size() - beginning.size() - ending.size());
+    function.calls = {all.count(target) != 0 ? target : other_name(target)};
   }
 }
 
@@ -313,7 +325,7 @@ Functions functions_in(const std::string& disassembly) {
     }
   }
   for (auto& [name, function] : functions) {
-    see_through_veneer(name, function);
+    see_through_veneer(name, functions, function);
   }
   return functions;
 }

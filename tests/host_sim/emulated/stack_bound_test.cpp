@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <string>
+
 #include "compiled.hpp"
 
 namespace sonoglide::emulated::stack_bound_test {
@@ -41,6 +44,24 @@ TEST(Veneer, LeadsToItsFunction) {
   EXPECT_EQ(bound.unbounded_by, "");
   EXPECT_EQ(bound.bytes, 20U);
   EXPECT_EQ(stack_bound(veneer, "reset").unbounded_by, "far is not in the image");
+}
+
+// Of one function, which the veneer calls by its second name.
+TEST(Veneer, LeadsToAConstructorByEitherOfItsNames) {
+  const auto code = [](const char* called, const char* there) {
+    return std::regex_replace(
+               std::string(
+                   "08000000 <reset>:\n 8000000:\tf000 f805 \tbl\t8000010 <__CALLED_veneer>\n\n"
+                   "08000010 <__CALLED_veneer>:\n 8000010:\tf85f f000 \tldr.w\tpc, [pc]\n"
+                   " 8000014:\t10000001 \t.word\t0x10000001\n\n"),
+               std::regex("CALLED"), called) +
+           "10000000 <" + there +
+           ">:\n10000000:\tb500      \tpush\t{lr}\n10000002:\tbd00      \tpop\t{pc}\n";
+  };
+  EXPECT_EQ(stack_bound(code("_ZN5BoardC2Em", "_ZN5BoardC1Em"), "reset").unbounded_by, "");
+  EXPECT_EQ(stack_bound(code("_ZN5BoardD2Ev", "_ZN5BoardD1Ev"), "reset").unbounded_by, "");
+  EXPECT_EQ(stack_bound(code("_ZN5BoardC2Em", "_ZN5OtherC1Em"), "reset").unbounded_by,
+            "_ZN5BoardC1Em is not in the image");
 }
 
 TEST_P(StackBoundTest, LooksIntoTheCompilersLibrary) {
