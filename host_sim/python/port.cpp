@@ -255,10 +255,11 @@ void add_port(py::module_& module) {
       .def(
           "step", &Port::step, py::arg("from_target"), py::arg("to_target"),
           "step(self, from_target, to_target)\n--\n\nHow the friction force goes from one target, once the loop has "
-          "settled there\n(settled_before), to another, which stays; the drive runs. friction_force_before_N,\n"
-          "friction_force_after_N, "
-          "ripple_N;\nrise_s from 10 to 90 %, settling_s to 5 % and overshoot, parts of the step, None where there "
-          "are none;\nlimit and settling at the end; trace, lists by column: time_s since the new target, then as status().")
+          "settled there\n(settled_before), to another, which stays. friction_force_before_N, friction_force_after_N,\n"
+          "ripple_N; rise_s from 10 to 90 %, settling_s to 5 % and overshoot, parts of the step, None where\n"
+          "there are none; limit and settling at the end; trace, lists by column: time_s since the new\n"
+          "target, then as status().\n\nValueError: a target that the unit does not have, or twice the same. "
+          "RuntimeError: the drive is\noff, a fault came, or the unit has no trace.")
       .def("stop", &Port::stop, "stop(self)\n--\n\nDrive to zero at once.")
       .def("restart", &Port::restart,
            "restart(self)\n--\n\nStarts the drive, from a stop, from a fault or from running.")

@@ -190,7 +190,8 @@ std::vector<Key> controller_keys() {
        Rule{"calibrated with a calibration_s above 0, else trusted"},
        "where the controller has the friction force from. trusted: from the scene. calibrated: "
        "measured in calibration_s. tracked: learnt while driving, with the contact stiffness and the "
-       "gain of the vibration; for law dahl, a cosine and a drive that is fed forward, without a bias (with drive.bias_limit_N use \"calibrated\")",
+       "gain of the vibration; for law dahl, a cosine and a drive that is fed forward, without a bias "
+       "(with drive.bias_limit_N use \"calibrated\")",
        uses::force_sensor},
       {"calibration_s", of_controller<&Controller::calibration_s>, Number{time_range},
        Rule{

@@ -48,17 +48,13 @@ class Courses {
     add("Sliding velocity", link::Quantity::sliding_velocity,
         {{"as read", code(link::Quantity::sliding_velocity, &link::TraceRecord::sliding_velocity),
           Line::stepped}});
-    switch (static_cast<link::TraceExtra>(trace_.state.extra)) {
-      case link::TraceExtra::bias:
-        add("Bias", link::Quantity::bias,
-            {{"answered", code(link::Quantity::bias, &link::TraceRecord::other), Line::stepped}});
-        break;
-      case link::TraceExtra::frequency:
-        all.push_back(chart("Steps of the frequency word above the start's", "[-]",
-                            {{"answered", frequency_steps(), Line::stepped}}));
-        break;
-      case link::TraceExtra::none:
-        break;
+    const auto extra = static_cast<link::TraceExtra>(trace_.state.extra);
+    if (extra == link::TraceExtra::bias) {
+      add("Bias", link::Quantity::bias,
+          {{"answered", code(link::Quantity::bias, &link::TraceRecord::other), Line::stepped}});
+    } else if (extra == link::TraceExtra::frequency) {
+      all.push_back(chart("Steps of the frequency word above the start's", "[-]",
+                          {{"answered", frequency_steps(), Line::stepped}}));
     }
     return all;
   }

@@ -77,10 +77,11 @@ class TrackedConstants {
   /// Variances of ln Fc, ln Kt and ln g by the readings that were weighed.
   const Each& weighed_variance() const { return estimate_.variance(); }
 
-  /// The same, as they are told: those of Kt and g also cover a gain far from what was known at the start. Fc may have changed since the last
-  /// reading as much as it did before it, or as the request has moved since, or by less than a reading shows;
-  /// and the error of the map may be one of Fc. Where readings contradict what was known of Kt and g, neither
-  /// is sure, nor is Fc to 1.6 % until four readings after the dip have told whether it drifts.
+  /// The same, as they are told: those of Kt and g also cover a gain far from what was known at the start. Fc
+  /// may have changed since the last reading as much as it did before it, or as the request has moved since, or
+  /// by less than a reading shows; and the error of the map may be one of Fc. Where readings contradict what was
+  /// known of Kt and g, neither is sure, nor is Fc to 1.6 % until four readings after the dip have told whether
+  /// it drifts.
   /// @param moved  by which the request has moved, half of it over itself
   Each variance(Scalar moved) const {
     Each all = estimate_.stated_variance();

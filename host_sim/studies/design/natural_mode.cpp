@@ -277,6 +277,17 @@ bool names_no_means(const scene::Scene& stated) {
          !(stated.drive->bias_limit_N > 0.0) && !stated.controller->vibration;
 }
 
+/// What the trials leave out, such as a sliding that turns, may be none of the loop's.
+/// @throws configure::ConfigurationError  the whole scene cannot have it
+void require_in(scene::Scene scene, const RecommendedLoop& loop) {
+  equip(scene, loop);
+  scene.controller->friction = loop.friction;
+  if (contradicts_calibration(*scene.controller, loop.friction)) {
+    scene.controller->calibration_s.reset();
+  }
+  configure::design_control(scene);
+}
+
 /// @param nominal  a trial at the scene's carrier
 RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nominal,
                                  double stiffness_range) {
@@ -290,19 +301,12 @@ RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nomina
                                  nominal.drive->delay_periods);
   }
   equip(nominal, found);
-  scene::Scene whole = stated;
-  equip(whole, found);
   try {
     found.friction = friction_source(stated, nominal);
     if (found.friction == scene::FrictionSource::trusted) {
       nominal.model_error.coefficient = stated.model_error.coefficient;
     }
-    // What the trials leave out, such as a sliding that turns.
-    whole.controller->friction = found.friction;
-    if (contradicts_calibration(*stated.controller, found.friction)) {
-      whole.controller->calibration_s.reset();
-    }
-    configure::design_control(whole);
+    require_in(stated, found);
     found.plants = try_plants(nominal, stiffness_range);
   } catch (const configure::ConfigurationError& error) {
     found.refused = fmt::format("{}: {}", error.key(), error.what());
@@ -328,7 +332,7 @@ std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
   return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
 }
 
-/// Beside the friction that the trials know.
+/// Of what the trials do not know: the friction coefficient they do.
 bool has_model_error(const scene::Scene& scene) {
   const scene::ModelError& error = scene.model_error;
   return error.mass != 1.0 || error.stiffness != 1.0 || error.contact_stiffness != 1.0 ||

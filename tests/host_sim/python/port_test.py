@@ -78,7 +78,7 @@ def test_a_step_is_measured(unit):
     step = unit.step(0.4, 0.7)
     assert step["friction_force_before_N"] < step["friction_force_after_N"]
     assert 0.0 < step["rise_s"] < step["settling_s"]
-    assert isinstance(step["settled_before"], bool)
+    assert (step["limit"], step["settling"]) == ("none", "settled")
     trace = step["trace"]
     assert len(trace["time_s"]) == len(trace["friction_force_N"]) == 1024
     assert [target for time, target in zip(trace["time_s"], trace["target"]) if time >= 0.0][0] == 0.7

@@ -146,7 +146,7 @@ std::vector<Eigen::VectorXd> scanned_springs(const PlantProblem& problem,
       "{}: noise hides the natural mode, so that the levels of friction alone tell the spring. "
       "Springs from {:.3g} to {:.3g} times the one found were tried{}; one beyond, such as on the "
       "other side of the carrier frequency, may give the same levels. Readings with less noise "
-      "would tell.",
+      "would tell; until then load no unit of commissioned.toml.",
       problem.unknowns().front().key, std::exp(-reach), std::exp(reach),
       springs.is_cut ? ", and the last of them are as possible" : ""));
   return springs.parameters;
