@@ -8,15 +8,14 @@ if(CMAKE_SCRIPT_MODE_FILE)
   if(bytes STREQUAL "")
     message(FATAL_ERROR "${FILE} is empty")
   endif()
-  string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
+  string(REGEX REPLACE "(..)" "\\\\x\\1" bytes "${bytes}")
   file(WRITE "${OUTPUT}"
     "#include \"${HEADER}\"\n\n"
-    "namespace ${NAMESPACE} {\n"
-    "namespace {\n"
-    "constexpr char bytes[] = {${bytes}};\n"
-    "}  // namespace\n"
-    "std::string_view ${FUNCTION}() { return {bytes, sizeof bytes}; }\n"
-    "}  // namespace ${NAMESPACE}\n")
+    "// A literal compiles far faster than an array of as many characters.\n"
+    "std::string_view ${NAMESPACE}::${FUNCTION}() {\n"
+    "  static constexpr char bytes[] = \"${bytes}\";\n"
+    "  return {bytes, sizeof bytes - 1};\n"
+    "}\n")
   return()
 endif()
 
@@ -35,6 +34,4 @@ function(sonoglide_embed target)
     COMMENT "Embedding ${EMBED_FILE}"
     VERBATIM)
   target_sources(${target} PRIVATE "${source}")
-  # Each such file names its bytes alike.
-  set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
