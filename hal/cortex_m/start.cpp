@@ -6,7 +6,9 @@
 
 extern "C" {
 
-extern std::uint32_t stack_top[];  // address from sections.ld
+// Addresses from sections.ld.
+extern std::uint32_t stack_top[];
+void take_unexpected();
 
 // Naked: the compiler may put no floating-point instruction before the unit is enabled.
 [[gnu::naked, noreturn]] void reset() {
@@ -40,8 +42,8 @@ struct VectorTable {
 [[gnu::section(".entry"), gnu::used]] const VectorTable vectors = {
     stack_top,
     reset,
-    {take_non_maskable_interrupt, take_exception, take_exception, take_exception, take_exception,
-     take_exception, take_exception, take_exception, take_exception, take_exception, take_exception,
-     take_exception, take_exception, take_system_tick}};
+    {take_non_maskable_interrupt, take_hard_fault, take_unexpected, take_unexpected,
+     take_unexpected, take_unexpected, take_unexpected, take_unexpected, take_unexpected,
+     take_unexpected, take_unexpected, take_unexpected, take_unexpected, take_system_tick}};
 
 }  // namespace

@@ -8,10 +8,13 @@ extern "C" {
 
 volatile std::int32_t drive_amplitude = 0;
 
-// Needs no stack: an exception may have come from there being none.
+void shutdown() {
+  drive_amplitude = 0;
+}
+
 void leave_image(int /*code*/) {
   for (;;) {
-    drive_amplitude = 0;
+    shutdown();
   }
 }
 

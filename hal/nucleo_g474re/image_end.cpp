@@ -17,12 +17,15 @@ constexpr std::uint32_t outputs = 1U << 16 | 1U << 20;
 
 extern "C" {
 
-// Needs no stack: an exception may have come from there being none.
+void shutdown() {
+  carrier_timer.break_control = outputs_off;
+  port_a.set_and_reset = legs_low;
+  port_a.mode = (port_a.mode & ~modes_of_legs) | outputs;
+}
+
 void leave_image(int /*code*/) {
   for (;;) {
-    carrier_timer.break_control = outputs_off;
-    port_a.set_and_reset = legs_low;
-    port_a.mode = (port_a.mode & ~modes_of_legs) | outputs;
+    shutdown();
   }
 }
 

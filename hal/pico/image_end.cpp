@@ -5,11 +5,14 @@
 
 extern "C" {
 
-// Needs no stack: an exception may have come from there being none.
+void shutdown() {
+  sonoglide::hal::pico::hold_low(2);
+  sonoglide::hal::pico::hold_low(3);
+}
+
 void leave_image(int /*code*/) {
   for (;;) {
-    sonoglide::hal::pico::hold_low(2);
-    sonoglide::hal::pico::hold_low(3);
+    shutdown();
   }
 }
 

@@ -17,7 +17,7 @@ extern "C" {
 
 // The trap vector has to stand on a multiple of four.
 [[gnu::naked, gnu::aligned(4), gnu::used, noreturn]] void take_trap() {
-  asm volatile("call take_exception \n");
+  asm volatile("tail take_unexpected \n");
 }
 
 }  // extern "C"

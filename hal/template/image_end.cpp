@@ -7,9 +7,13 @@ using sonoglide::hal::template_board::carrier;
 
 extern "C" {
 
+void shutdown() {
+  carrier.amplitude = 0;
+}
+
 void leave_image(int /*code*/) {
   for (;;) {
-    carrier.amplitude = 0;
+    shutdown();
   }
 }
 

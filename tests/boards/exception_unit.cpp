@@ -1,5 +1,5 @@
 // A unit that drives, says so, and then does what no processor can: it is looked at what its
-// exception handler leaves of the drive.
+// exception handler leaves of the drive, and after a reset at the exception that was kept.
 #include SONOGLIDE_BOARD_HEADER
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "hal/exception/kept_exception.hpp"
 #include "hal/no_watchdog.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/timed/drive_register.hpp"
@@ -42,10 +43,38 @@ void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
   send(bytes, end);
 }
 
+/// Nothing but an instruction that there is not.
+[[gnu::naked, gnu::noinline]] void trap() {
+#if defined(__riscv)
+  asm volatile("unimp");
+#else
+  asm volatile("udf #0");
+#endif
+}
+
+std::uint32_t address_of(const volatile void* object) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object));
+}
+
+/// What was kept, in a line, and whether it was taken for good.
+void tell(Hardware::ByteLink& bytes, const sonoglide::hal::KeptException& kept) {
+  send(bytes, kept.exception, ' ');
+  send(bytes, kept.program_counter, ' ');
+  send(bytes, kept.program_status, ' ');
+  send(bytes, kept.fault_status, ' ');
+  sonoglide::hal::KeptException again{};
+  send(bytes, sonoglide::hal::take_kept_exception(again) ? 1 : 0, '\n');
+}
+
 }  // namespace
 
 int main() {
   Hardware::ByteLink bytes;
+  sonoglide::hal::KeptException kept{};
+  if (sonoglide::hal::take_kept_exception(kept)) {
+    tell(bytes, kept);
+    return 0;
+  }
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
   app::Supervisor<sonoglide::control::Controller<configuration::Parts>> supervisor(
       configuration::parameters);
@@ -56,7 +85,11 @@ int main() {
   for (int i = 0; i < settled; ++i) {
     loop.serve();
   }
-  send(bytes, static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&drive_amplitude)), ' ');
-  send(bytes, static_cast<std::uint32_t>(drive_amplitude), '\n');
-  __builtin_trap();
+  send(bytes, address_of(&drive_amplitude), ' ');
+  send(bytes, static_cast<std::uint32_t>(drive_amplitude), ' ');
+  constexpr std::uint32_t without_thumb_bit = ~std::uint32_t{1};
+  send(bytes,
+       static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&trap)) & without_thumb_bit,
+       '\n');
+  trap();
 }

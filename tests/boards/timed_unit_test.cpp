@@ -142,6 +142,9 @@ class Terminal {
 
   std::uint32_t word(std::uint32_t address) { return monitor_.word(address); }
 
+  /// Of a board without a link; it comes soon.
+  void request_reset() { monitor_.request_reset(); }
+
   /// The target is until reset.
   void reset() {
     type("target 0.123");
@@ -338,16 +341,42 @@ TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
   }
 }
 
-TEST_P(TimedUnit, AnExceptionTakesTheDriveAway) {
+/// As RISC-V, Armv6-M and Armv7-M tell of an instruction that there is not.
+void expect_undefined_instruction(const std::string& board, std::uint32_t exception,
+                                  std::uint32_t fault_status) {
+  if (board == "riscv32-virt") {
+    EXPECT_EQ(exception, 2U);
+  } else {
+    EXPECT_EQ(exception, 3U);
+    EXPECT_EQ(fault_status, board == "microbit" ? 0 : 1U << 16);
+  }
+}
+
+TEST_P(TimedUnit, AnExceptionTakesTheDriveAwayAndIsKeptOverTheReset) {
   Terminal terminal(emulate(GetParam().name, "target_step_exception", GetParam().speed));
-  const std::string line = terminal.next_line();  // where the amplitude in force stands, and it
-  const std::size_t blank = line.find(' ');
-  const auto address = static_cast<std::uint32_t>(std::stoul(line.substr(0, blank)));
-  EXPECT_NEAR(numeric::from_code<double>(std::stoi(line.substr(blank))), 0.1 / 0.4, 1e-3);
+  std::istringstream driving(terminal.next_line());
+  std::uint32_t address = 0;  // of the amplitude in force
+  std::int32_t amplitude = 0;
+  std::uint32_t trap = 0;
+  driving >> address >> amplitude >> trap;
+  EXPECT_NEAR(numeric::from_code<double>(amplitude), 0.1 / 0.4, 1e-3);
   // The trap comes some instructions after the last character.
   for (int i = 0; i < 1000 && terminal.word(address) != 0; ++i) {
   }
   EXPECT_EQ(terminal.word(address), 0U);
+
+  terminal.request_reset();
+  std::istringstream kept(terminal.next_line());
+  std::uint32_t exception = 0;
+  std::uint32_t program_counter = 0;
+  std::uint32_t program_status = 0;
+  std::uint32_t fault_status = 0;
+  int again = 1;
+  kept >> exception >> program_counter >> program_status >> fault_status >> again;
+  EXPECT_EQ(program_counter, trap) << kept.str();
+  EXPECT_NE(program_status, 0U) << kept.str();
+  EXPECT_EQ(again, 0) << kept.str();
+  expect_undefined_instruction(GetParam().name, exception, fault_status);
 }
 
 std::string name_of(const TimedBoard& board) {

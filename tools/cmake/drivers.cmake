@@ -36,7 +36,7 @@ endfunction()
 
 sonoglide_drivers(arm FLAGS --target=thumbv7em-none-eabi
   FOLDERS hal hal/start hal/timed hal/halt hal/lockstep hal/lockstep/board hal/semihosting
-    hal/cortex_m hal/cortex_m/loaded hal/microbit hal/mps2 hal/netduinoplus2
+    hal/exception hal/cortex_m hal/cortex_m/loaded hal/microbit hal/mps2 hal/netduinoplus2
     hal/pico hal/pico/rp2040 hal/template)
 target_compile_definitions(drivers_arm PRIVATE "SONOGLIDE_CHIP_HEADER=\"hal/pico/rp2040/chip.hpp\"")
 # Peripherals of other boards have the same names.
@@ -45,4 +45,4 @@ target_compile_definitions(drivers_g474 PRIVATE SONOGLIDE_ENCODER_COUNTS_PER_M=1
 sonoglide_drivers(rp2350 FLAGS --target=thumbv8m.main-none-eabi FOLDERS hal/pico hal/pico/rp2350)
 target_compile_definitions(drivers_rp2350 PRIVATE "SONOGLIDE_CHIP_HEADER=\"hal/pico/rp2350/chip.hpp\"")
 sonoglide_drivers(riscv FLAGS --target=riscv32-unknown-elf -march=rv32imac -mabi=ilp32
-  FOLDERS hal/semihosting hal/riscv hal/riscv_virt)
+  FOLDERS hal/exception hal/semihosting hal/riscv hal/riscv_virt)

@@ -1,0 +1,26 @@
+/// What the processor was at when an exception ended the image, kept over the reset that follows.
+#pragma once
+
+#include <cstdint>
+
+namespace sonoglide::hal {
+
+/// Of the first exception since the last one was taken. Of a Cortex-M0 and M0+ the three fault words are 0:
+/// there are no such registers.
+struct KeptException {
+  std::uint32_t exception;        ///< its number, as in IPSR: 3 is the hard fault; RISC-V: mcause
+  std::uint32_t program_counter;  ///< of the instruction that was interrupted; 0: no stack held it
+  std::uint32_t link_register;    ///< where its function would have returned to; 0: likewise
+  std::uint32_t program_status;   ///< xPSR; 0: likewise; RISC-V: mstatus
+  std::uint32_t fault_status;     ///< CFSR, what went wrong; RISC-V: 0
+  std::uint32_t hard_fault_status;  ///< HFSR; RISC-V: 0
+  std::uint32_t fault_address;      ///< BFAR or MMFAR, 0 where neither is valid; RISC-V: mtval
+};
+
+/// An image that calls this, at the begin of its main, keeps its exceptions: each one that it does not expect
+/// calls shutdown() (hal/start/image_end.hpp), writes to .noinit, and goes on to take_exception(). An image that
+/// does not call it has none of this.
+/// @return whether an exception was kept; it is then taken, and gone
+bool take_kept_exception(KeptException& exception);
+
+}  // namespace sonoglide::hal
