@@ -90,6 +90,12 @@ struct BiasedDrive : Drive {
 ///     static constexpr double travel_counts_per_m;  // a texture's period has 8 to 2^30 counts
 ///     std::uint32_t travel();  // with the last sample; rises with the sliding velocity; wraps
 ///
+/// A board whose hardware switches the drive off by itself, by a comparator of overcurrent for one, and holds it
+/// off, may say so. The unit is then in the fault external with that cause until a restart, which it refuses
+/// while the board still says so:
+///
+///     std::uint8_t tripped();  // with the last sample; 0: not; or the cause by the board's own count, 1 to 31
+///
 ///   class Watchdog {  // resets the board unless it is fed in time
 ///    public:
 ///     void feed();
@@ -138,6 +144,12 @@ struct CountsTravel<Board, std::void_t<decltype(std::declval<Board&>().travel())
                                        decltype(Board::travel_counts_per_m)>>
     : std::is_same<decltype(std::declval<Board&>().travel()), std::uint32_t> {};
 
+template <class Board, class = void>
+struct ReportsTrips : std::false_type {};
+template <class Board>
+struct ReportsTrips<Board, std::void_t<decltype(std::declval<Board&>().tripped())>>
+    : std::is_same<decltype(std::declval<Board&>().tripped()), std::uint8_t> {};
+
 }  // namespace detail
 
 /// Whether a class has the shape of a board.
@@ -152,5 +164,9 @@ inline constexpr bool keeps_periods =
 /// Whether a board counts the sliding distance.
 template <class Board>
 inline constexpr bool counts_travel = detail::CountsTravel<Board>::value;
+
+/// Whether a board says that its hardware has switched the drive off.
+template <class Board>
+inline constexpr bool reports_trips = detail::ReportsTrips<Board>::value;
 
 }  // namespace sonoglide::hal

@@ -118,6 +118,22 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     return Base::answer(sample);
   }
 
+  /// In place of step(), see Supervisor::hold(). A stop stays in the fault, a restart is overtaken by it; other
+  /// parameters are taken.
+  const Drive& hold(const Sample& sample, std::uint8_t cause) {
+    const Work work = look();
+    Base::hold(sample, cause);
+    course_.move(static_cast<const Base&>(*this));
+    if (work.order == nullptr) {
+      watch_service();
+    } else if (work.order->kind == Kind::restart) {
+      orders_.finish(OrderEnd::overtaken);
+    } else {
+      carry_out(*work.order);
+    }
+    return Base::drive();
+  }
+
   /// After the step: what the target of the next one depends on.
   template <class Board>
   void pass(const Sample& sample, Board& board) {

@@ -33,7 +33,17 @@ enum class UnitFault : std::uint8_t {
   parameters_lost,  ///< what is stored is damaged; a restart is refused
   parameters_of_other_design,  ///< what is stored was set under another; a restart is refused
   service_stalled,             ///< the service did not come round, so that no stop would be heard
+  external = 64,               ///< and the cause: the board's hardware has switched the drive off
 };
+
+/// Causes of UnitFault::external are 1 ... 31, by the board's own count.
+inline constexpr std::uint8_t last_external_cause = 31;
+
+/// @param cause  above the last one it is taken for that
+constexpr UnitFault external_fault(std::uint8_t cause) {
+  const unsigned known = cause < last_external_cause ? cause : last_external_cause;
+  return static_cast<UnitFault>(static_cast<unsigned>(UnitFault::external) + known);
+}
 
 /// A controller and its operation: off, running or in a fault. The drive is zero unless the
 /// controller runs, or ramps down because its host fell silent.
@@ -76,6 +86,16 @@ class Supervisor {
   void trip(UnitFault fault) {
     end(control::State::fault, static_cast<std::uint8_t>(fault));
     log_.add({drive_.fault, periods_});
+  }
+
+  /// In place of step(), in a carrier period in which the board's hardware has tripped: the fault is kept with
+  /// the first cause, from whatever the unit did.
+  const Drive& hold(const Sample& sample, std::uint8_t cause) {
+    begin(sample);
+    if (drive_.fault < static_cast<std::uint8_t>(UnitFault::external)) {
+      trip(external_fault(cause));
+    }
+    return drive_;
   }
 
   /// While running: a fault, but the drive ramps down instead of ending at once, at its frequency; a bias

@@ -22,6 +22,8 @@ struct NoService {
 ///   replaced by zero, and the fault stays until a restart.
 /// - The watchdog is fed only when a period's step was done in time and the service comes round. This
 ///   holds in a fault too: otherwise the reset would be a restart that nobody asked for.
+/// - A board that says that it has tripped (tripped()) holds the unit in the fault external, with the drive at
+///   zero, and after that it needs a restart.
 /// - After a reset by the watchdog the unit waits in a fault. After any other reset a unit without
 ///   a host runs (NoHost); one with a host does as its Unit decided.
 ///
@@ -56,7 +58,12 @@ class TimedLoop {
     begun_ = true;
     period_ = period;
     // After drive(), so that a command which came just too late is replaced before it acts.
-    board_.drive(supervisor_.step(sample));
+    if constexpr (hal::reports_trips<Board>) {
+      const std::uint8_t cause = board_.tripped();
+      board_.drive(cause != 0 ? supervisor_.hold(sample, cause) : supervisor_.step(sample));
+    } else {
+      board_.drive(supervisor_.step(sample));
+    }
     const bool in_time = none_lost && board_.period() == period;
     if (in_time) {
       if (supervisor_.serviced()) {

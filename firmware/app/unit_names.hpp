@@ -1,6 +1,7 @@
 /// The words by which a unit names its faults and its store to people.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "firmware/app/supervisor.hpp"
@@ -9,8 +10,36 @@
 
 namespace sonoglide::app {
 
+namespace detail {
+
+/// "external_0" ... "external_31".
+struct ExternalNames {
+  char of[last_external_cause + 1][sizeof "external_31"]{};
+
+  constexpr ExternalNames() {
+    constexpr char word[] = "external_";
+    for (unsigned cause = 0; cause <= last_external_cause; ++cause) {
+      std::size_t size = 0;
+      for (; word[size] != '\0'; ++size) {
+        of[cause][size] = word[size];
+      }
+      if (cause >= 10) {
+        of[cause][size++] = static_cast<char>('0' + cause / 10);
+      }
+      of[cause][size] = static_cast<char>('0' + cause % 10);
+    }
+  }
+};
+inline constexpr ExternalNames external_names;
+
+}  // namespace detail
+
 /// @param fault  control::Fault or UnitFault.
 constexpr const char* fault_name(std::uint8_t fault) {
+  constexpr auto external = static_cast<std::uint8_t>(UnitFault::external);
+  if (external <= fault && fault <= external + last_external_cause) {
+    return detail::external_names.of[fault - external];
+  }
   switch (static_cast<UnitFault>(fault)) {
     case UnitFault::overrun:
       return "overrun";
@@ -24,6 +53,8 @@ constexpr const char* fault_name(std::uint8_t fault) {
       return "parameters_of_other_design";
     case UnitFault::service_stalled:
       return "service_stalled";
+    case UnitFault::external:
+      break;
   }
   return control::name(static_cast<control::Fault>(fault));
 }

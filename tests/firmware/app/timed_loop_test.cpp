@@ -442,5 +442,83 @@ RC_GTEST_PROP(TimedLoopCommands, AreThoseOfTheLockstepLoopBitForBit, ()) {
   }
 }
 
+/// Its hardware may have switched the drive off.
+class TrippingBoard : public TimedBoard {
+ public:
+  std::uint8_t tripped() const { return cause; }
+  std::uint8_t cause = 0;
+};
+static_assert(hal::reports_trips<TrippingBoard> && !hal::reports_trips<TimedBoard>);
+
+/// See firmware/link/README.md.
+constexpr std::uint8_t external_5 = 64 + 5;
+
+TEST(TrippedBoard, EndsTheDriveInItsPeriodUntilARestartThatComesAfter) {
+  Supervisor<FieldDesign<Parts>::Controller> supervisor(
+      field_design.controller_parameters(field_design.presets()));
+  supervisor.set_target(0.2F);
+  TrippingBoard board;
+  CountingWatchdog watchdog;
+  NoService service;
+  TimedLoop loop(supervisor, board, watchdog, service);
+  const auto serve = [&](int periods) {
+    for (int i = 0; i < periods; ++i) {
+      ASSERT_TRUE(loop.serve());
+    }
+  };
+  serve(100);
+  EXPECT_GT(board.latest_drive().amplitude, 0);
+  board.cause = 5;
+  serve(1);
+  EXPECT_EQ(board.latest_drive().amplitude, 0);
+  EXPECT_EQ(board.latest_drive().state, faulted);
+  EXPECT_EQ(board.latest_drive().fault, external_5);
+  EXPECT_EQ(fault_of(supervisor), external_5);
+  EXPECT_EQ(supervisor.faults().entry(0).period, 101U);
+  board.cause = 7;  // the first one stays
+  serve(10);
+  EXPECT_EQ(board.latest_drive().fault, external_5);
+  board.cause = 0;
+  serve(10);
+  EXPECT_EQ(board.latest_drive().fault, external_5);
+  EXPECT_EQ(supervisor.faults().count(), 1U);
+  EXPECT_EQ(watchdog.feeds, 121);
+  supervisor.restart();
+  serve(200);
+  EXPECT_NEAR(board.ratio(), 0.4, 1e-3);
+  EXPECT_EQ(supervisor.faults().count(), 1U);
+}
+
+TEST(TrippedBoard, RefusesARestartAndKeepsTheFaultOverAStopWhileItLasts) {
+  SimulatedFlash flash;
+  TestedUnit unit(field_design, flash);
+  TrippingBoard board;
+  hal::NoWatchdog watchdog;
+  NoService service;
+  TimedLoop loop(unit.supervisor(), board, watchdog, service);
+  board.cause = 40;  // above the last one
+  ASSERT_TRUE(loop.serve());
+  EXPECT_EQ(board.latest_drive().fault, 64 + 31);
+  const std::uint32_t faults = unit.supervisor().faults().count();
+  ASSERT_EQ(unit.restart(faults), Answer::taken);
+  ASSERT_TRUE(loop.serve());
+  EXPECT_EQ(unit.order_end(), OrderEnd::overtaken);
+  EXPECT_EQ(board.latest_drive().state, faulted);
+  unit.stop();
+  ASSERT_TRUE(loop.serve());
+  EXPECT_EQ(board.latest_drive().state, faulted);
+  ASSERT_EQ(unit.set_target(600000, faults), Answer::taken);  // of the next drive
+  ASSERT_TRUE(loop.serve());
+  EXPECT_EQ(unit.order_end(), OrderEnd::done);
+  EXPECT_EQ(unit.supervisor().faults().count(), faults);
+  board.cause = 0;
+  ASSERT_EQ(unit.restart(faults), Answer::taken);
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_TRUE(loop.serve());
+  }
+  EXPECT_EQ(unit.order_end(), OrderEnd::done);
+  EXPECT_NEAR(board.ratio(), 0.6, 1e-3);
+}
+
 }  // namespace
 }  // namespace sonoglide::app::timed_loop_test

@@ -75,7 +75,10 @@ TEST(UnitCodes, OfFaultsAreThoseOfTheReference) {
                         {34, "host_silent"},
                         {35, "parameters_lost"},
                         {36, "parameters_of_other_design"},
-                        {37, "service_stalled"}};
+                        {37, "service_stalled"},
+                        {65, "external_1"},
+                        {74, "external_10"},
+                        {95, "external_31"}};
   for (const auto& [number, word] : faults) {
     EXPECT_EQ(fault_name(static_cast<std::uint8_t>(number)), word) << number;
   }
