@@ -125,6 +125,20 @@ TYPED_TEST(LearntFrictionTest, GoesOnForTheStatedTotal) {
   EXPECT_EQ(this->learnt(friction), 0.25);
 }
 
+TYPED_TEST(LearntFrictionTest, ARestartCountsAndTaresAnew) {
+  auto friction = this->learner(1, 2, 10);
+  for (const double offset : {0.125, -0.125}) {
+    friction.restart();
+    for (int i = 0; i < 10; ++i) {
+      ASSERT_TRUE(friction.learning()) << "after " << i << ", offset " << offset;
+      this->learn(friction, i < 4 ? offset : offset + 0.5, i < 4 ? 0.0 : 0.1);
+    }
+    EXPECT_FALSE(friction.learning());
+    EXPECT_EQ(this->learnt(friction), 0.5);
+    EXPECT_EQ(this->tared(friction, 0.375), 0.375 - offset);
+  }
+}
+
 TYPED_TEST(LearntFrictionTest, TellsAnOffsetFromFrictionByAReversal) {
   auto friction = this->learner(2, 4, 12);
   for (int i = 0; i < 12; ++i) {
