@@ -43,8 +43,8 @@ void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
   send(bytes, end);
 }
 
-/// Nothing but an instruction that there is not.
-[[gnu::naked, gnu::noinline]] void trap() {
+/// Nothing but an instruction that there is not; in RAM.
+[[gnu::naked, gnu::noinline, gnu::section(".ramfunc")]] void trap() {
 #if defined(__riscv)
   asm volatile("unimp");
 #else

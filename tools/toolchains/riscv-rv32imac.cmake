@@ -17,6 +17,7 @@ set(processor_flags
   -march=rv32imac -mabi=ilp32 -misa-spec=2.2 -msmall-data-limit=0
   -isystem "${cxx_headers}" -isystem "${cxx_headers}/arm-none-eabi/thumb/v7-m/nofp"
   -isystem "${picolibc}/include")
-set(linker_flags -nostdlib "-L${picolibc}/lib/rv32imac/ilp32")
+# Data may have code among it that runs from RAM (.ramfunc); its linker, unlike Arm's, warns of that.
+set(linker_flags -Wl,--no-warn-rwx-segments -nostdlib "-L${picolibc}/lib/rv32imac/ilp32")
 set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-Wl,--start-group -lc -lgcc -Wl,--end-group")
 include("${CMAKE_CURRENT_LIST_DIR}/bare-metal.cmake")
