@@ -137,6 +137,8 @@ void design_calibration(const scene::Scene& scene, const NominalPlant& plant,
   }
   design.calibrated = true;
   design.calibration_total_periods = static_cast<std::uint32_t>(total);
+  const std::vector<scene::TargetStep>& targets = scene.controller->targets();
+  design.calibration_outlasts_target = targets.size() > 1 && targets[1].time_s <= calibration_s;
   const SlidingSpells spells = sliding_spells(scene, design, design.calibration_total_periods);
   // A sliding that begins too late for it makes the calibration longer.
   const double last = spells.last > settling ? spells.last : total;

@@ -201,6 +201,23 @@ void add_notes(const SensorlessDesign& mode, const ControlDesign& design,
   }
 }
 
+void add_calibration_note(const ControlDesign& design, std::vector<std::string>& notes) {
+  if (design.calibration_outlasts_target) {
+    notes.push_back(
+        "The calibration lasts longer than the first target, which is not followed. A shorter "
+        "controller.calibration_s, or a later second target, leaves time for it.");
+  }
+}
+
+void add_lead_note(const ControlDesign& design, std::vector<std::string>& notes) {
+  if (design.contact_lead > 0.0) {
+    notes.push_back(fmt::format(
+        "The contact follows the drive only as it slides through its presliding distance. Until it "
+        "has followed, the commanded ratio leads the target by up to {:.3g} times the error.",
+        design.contact_lead));
+  }
+}
+
 /// Where the contact as believed does not settle in the time of a target.
 void add_tracking_note(const ControlDesign& design, std::vector<std::string>& notes) {
   if (design.tracks && design.tracking_unsettled > 0.0) {
@@ -268,6 +285,8 @@ std::vector<std::string> design_notes(const ControlDesign& design) {
   if (design.bias) {
     notes.push_back(bias_note(*design.bias));
   }
+  add_calibration_note(design, notes);
+  add_lead_note(design, notes);
   add_tracking_note(design, notes);
   add_reach_note(design, notes);
   if (design.texture) {

@@ -201,6 +201,7 @@ TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
   }
   scene::Scene slow = feeling(0.2163);
   slow.controller->calibration_s = 20e-3;
+  slow.controller->target_friction_ratio = {{0.0, 0.4}};
   slow.sensor.force_bandwidth_Hz = 2000.0;
   EXPECT_TRUE(design_notes(design_control(slow)).empty());
   slow.sensor.force_bandwidth_Hz = 100.0;
@@ -267,6 +268,21 @@ TEST(ControlDesignTest, LeadsASlowContactByThePartThatCancelsItsLag) {
     EXPECT_EQ(slow.hold_periods, std::ceil(prompt.hold_periods + 4.0 * lag));
   }
   EXPECT_EQ(design_control(with_presliding_periods(1e9)).contact_lead, 1024.0);
+  EXPECT_TRUE(design_notes(prompt).empty());
+  const std::vector<std::string> notes = design_notes(design_control(with_presliding_periods(8.0)));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("slides through its presliding distance"), std::string::npos);
+}
+
+TEST(ControlDesignTest, NotesACalibrationThatOutlastsTheFirstTarget) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.controller->calibration_s = 1e-3;
+  scene.controller->target_friction_ratio = {{0.0, 0.4}, {1.1e-3, 0.6}};
+  EXPECT_TRUE(design_notes(design_control(scene)).empty());
+  scene.controller->target_friction_ratio[1].time_s = 0.9e-3;
+  const std::vector<std::string> notes = design_notes(design_control(scene));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("lasts longer than the first target"), std::string::npos);
 }
 
 TEST(ControlDesignTest, LeadsASlowContactWithoutAVibrationSensor) {
@@ -339,6 +355,7 @@ TEST(ControlDesignTest, TimesAreAsManyStepsAsFitIn) {
   scene.controller->every_periods = 8;
   scene.controller->standstill_hold_s = 800.0 * period_s;
   scene.controller->calibration_s = 400.0 * period_s;
+  scene.controller->target_friction_ratio = {{0.0, 0.4}};
   const ControlDesign design = design_control(scene);
   EXPECT_EQ(design.standstill_hold_periods, 100U);
   EXPECT_DOUBLE_EQ(design.standstill_fall, 8.0 / 128.0);
