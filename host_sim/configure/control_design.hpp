@@ -117,9 +117,9 @@ struct ControlDesign {
   std::uint32_t calibration_average_periods = 0;
   std::uint32_t calibration_total_periods = 0;
   bool calibration_outlasts_target = false;  ///< the first one, which then is not followed
-  double calibration_weight = 0.0;       ///< of a sample averaged
-  double calibration_half_steady = 1.0;  ///< half the largest difference of samples at rest
-  bool tracks = false;                   ///< the friction, while driving
+  double calibration_weight = 0.0;           ///< of a sample averaged
+  double calibration_half_steady = 1.0;      ///< half the largest difference of samples at rest
+  bool tracks = false;                       ///< the friction, while driving
   std::uint16_t tracking_wait_periods = 0;
   std::uint8_t tracking_average_periods = 0;
   std::uint16_t tracking_dip_periods = 0;
