@@ -118,6 +118,11 @@ TEST(FrameTest, IsLaidOutAsDocumented) {
   }
   expected.push_back(0);
   EXPECT_EQ(wire, expected);
+  FrameDecoder decoder;
+  for (const std::uint8_t byte : wire) {
+    decoder.take(byte);
+  }
+  EXPECT_EQ(decoder.checksum(), checksum);
 }
 
 /// Every pair of bits of a frame on the wire, its delimiters included, and every bit alone.
