@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware/app/force_calibration.hpp"
 #include "firmware/app/host_ramp.hpp"
 #include "firmware/app/order_slot.hpp"
 #include "firmware/app/sequence_lock.hpp"
@@ -57,6 +58,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   using Sample = typename Base::Sample;
   using Drive = typename Base::Drive;
   using Parameters = typename ControllerT::Parameters;
+  using Calibration = CalibrationOf<ControllerT>;
   using Recorder = std::conditional_t < TraceRecords == 0, NoTrace,
         Trace<TraceRecords<2 ? 2 : TraceRecords, Drive, Atomic>>;
 
@@ -70,6 +72,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     std::uint32_t faults = 0;
     Scalar target{};
     std::uint32_t timeout_periods = 0;
+    [[no_unique_address]] Calibration calibration{};
     ControllerT controller;  ///< of other parameters; made by the service, which has the time
   };
 
@@ -80,14 +83,17 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   /// @param timeout_periods  for which the host may be silent; 0: for ever
   /// @param service_periods  in which the service comes round
   /// @param course           of the target, see course_of()
+  /// @param calibration      of the force sensor
   CommandedSupervisor(const Parameters& parameters, const Designed& designed,
                       std::uint32_t timeout_periods, std::uint32_t service_periods,
-                      const Course& course = Course())
+                      const Course& course = Course(),
+                      const Calibration& calibration = Calibration())
       : Base(parameters),
         course_(course),
         designed_(designed),
         timeout_periods_(timeout_periods),
         service_periods_(service_periods),
+        calibration_(calibration),
         orders_(parameters) {
     Base::settle_at(designed_);
   }
@@ -101,7 +107,9 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   Work look() { return orders_.look(); }
 
   /// A carrier period with what look() gave, here or in the run that is replayed.
-  const Drive& step(const Sample& sample, const Work& work) {
+  const Drive& step(const Sample& reading, const Work& work) {
+    Sample sample = reading;
+    calibration_.apply(sample);
     Base::begin(sample);
     course_.move(static_cast<const Base&>(*this));
     if (work.stop) {
@@ -200,12 +208,13 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     orders_.post();
   }
   /// Another controller in its place; only while the unit does not drive.
-  void order_parameters(const Parameters& parameters, Scalar target,
-                        std::uint32_t timeout_periods) {
+  void order_parameters(const Parameters& parameters, Scalar target, std::uint32_t timeout_periods,
+                        const Calibration& calibration = Calibration()) {
     Order& order = orders_.draft();
     order.kind = Kind::parameters;
     order.target = target;
     order.timeout_periods = timeout_periods;
+    order.calibration = calibration;
     order.controller = ControllerT(parameters);
     orders_.post();
   }
@@ -240,6 +249,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         break;
       case Kind::parameters:
         timeout_periods_ = order.timeout_periods;
+        calibration_ = order.calibration;
         Base::replace(order.controller);
         Base::settle_at(designed_);
         set_target(order.target);
@@ -282,6 +292,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   const Designed& designed_;
   std::uint32_t timeout_periods_;
   std::uint32_t service_periods_;
+  [[no_unique_address]] Calibration calibration_;
   std::uint32_t silent_periods_ = 0;
   std::uint32_t stalled_periods_ = 0;
   std::uint32_t heard_last_ = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "firmware/app/force_calibration.hpp"
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/control/controller.hpp"
 #include "firmware/control/friction/friction_level.hpp"
@@ -34,19 +35,23 @@ enum class Inheritance : std::uint8_t {
   higher,  ///< the higher one of the stored value and the value compiled in
 };
 
-/// What values a parameter may have under a design.
+/// What values a parameter may have under a design. A range whose lowest is the higher one as unsigned numbers
+/// is of signed ones, in two's complement.
 struct ParameterRange {
   Inheritance inheritance;
   std::uint32_t lowest;
   std::uint32_t highest;
   std::uint32_t preset;  ///< compiled in
 
-  constexpr bool allows(std::uint32_t value) const { return lowest <= value && value <= highest; }
+  constexpr bool allows(std::uint32_t value) const { return value - lowest <= highest - lowest; }
 
   /// The value to use in place of one that was stored under another design.
   constexpr std::uint32_t inherited(std::uint32_t value) const {
     const std::uint32_t least = inheritance == Inheritance::higher ? preset : lowest;
-    return inheritance == Inheritance::none ? preset : numeric::clamp(value, least, highest);
+    const std::uint32_t sign = lowest > highest ? 0x80000000U : 0U;  // orders signed numbers
+    return inheritance == Inheritance::none
+               ? preset
+               : numeric::clamp(value ^ sign, least ^ sign, highest ^ sign) ^ sign;
   }
 };
 
@@ -135,6 +140,7 @@ class FieldDesign {
                                typename PartsT::Vibration, typename PartsT::Force,
                                typename PartsT::Target, control::DriveLimit<Scalar>, Samples>;
   using Controller = control::Controller<Parts>;
+  using Calibration = CalibrationOf<Controller>;
   using Designed = typename control::Controller<PartsT>::Parameters;
 
   /// @param designed     the controller's parameters, as sonoglide configure writes them.
@@ -161,6 +167,8 @@ class FieldDesign {
             {Inheritance::value, 0, 1, 0},
             {Inheritance::value, 0, longest_timeout_ms, timeout_ms},
             {Inheritance::none, 0, tolerates_samples ? sample_window - 1 : 0, 0},
+            {Inheritance::value, 0U - largest_offset, largest_offset, 0},
+            {Inheritance::value, lowest_gain, highest_gain, one_in_millionths},
         }},
         target_(target),
         design_(design_number(design, ranges_)),
@@ -238,6 +246,12 @@ class FieldDesign {
     return result;
   }
 
+  /// Of the force sensor; where nothing was changed, it changes no bit.
+  constexpr Calibration calibration(const ParameterValues& values) const {
+    return Calibration::of(value(values, Parameter::force_offset),
+                           value(values, Parameter::force_gain));
+  }
+
   /// A target in millionths as controllers take it; the designed one exactly.
   constexpr Scalar target(std::uint32_t millionths) const {
     return millionths == ranges_[static_cast<std::size_t>(Parameter::target)].preset
@@ -246,6 +260,12 @@ class FieldDesign {
   }
 
  private:
+  static constexpr bool reads_force = PartsT::Force::present;
+  static constexpr std::uint32_t largest_offset = reads_force ? one_in_millionths / 4 : 0;
+  static constexpr std::uint32_t lowest_gain =
+      reads_force ? one_in_millionths / 2 : one_in_millionths;
+  static constexpr std::uint32_t highest_gain =
+      reads_force ? 2 * one_in_millionths : one_in_millionths;
   static constexpr std::uint32_t target_base = PartsT::Target::base;
   static constexpr std::uint32_t longest_timeout_ms = 60'000;
   static constexpr std::uint32_t longest_save_ms = 10'000;

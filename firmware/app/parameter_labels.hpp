@@ -21,15 +21,18 @@ enum class Parameter : std::uint8_t {
   start_on_power,  ///< 1: a unit whose parameters are whole drives from power-on
   host_timeout,    ///< seconds for which the host may be silent while the unit drives; 0: for ever
   bad_samples,     ///< of the last 32 samples so many may be unusable; the drive then stands
+  force_offset,    ///< reading of the force sensor without a force, of its full scale; signed
+  force_gain,      ///< true force over reading less offset
 };
 
-inline constexpr std::size_t parameter_count = 9;
+inline constexpr std::size_t parameter_count = 11;
 
 /// How a parameter is called and counted.
 struct ParameterLabel {
   const char* name;
   const char* unit;             ///< as it stands after a number: " s", or nothing
   std::uint8_t decimal_places;  ///< a value is counted in units of the last one
+  bool is_signed = false;       ///< a value is in two's complement
 
   /// CRC-32 of name, unit and decimal places. By it the store finds the parameter in any list.
   constexpr std::uint32_t identity() const {
@@ -60,6 +63,8 @@ inline constexpr std::array<ParameterLabel, parameter_count> parameter_labels{{
     {"start_on_power", "", 0},
     {"host_timeout", " s", 3},
     {"bad_samples", "", 0},
+    {"force_offset", "", 6, true},
+    {"force_gain", "", 6},
 }};
 
 }  // namespace sonoglide::app

@@ -57,7 +57,8 @@ class Unit {
         origin_(load()),
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_), design.designed(),
-                    design.timeout_periods(values_), design.service_periods(), course) {
+                    design.timeout_periods(values_), design.service_periods(), course,
+                    design.calibration(values_)) {
     supervisor_.set_target(design_.target(target_));
     supervisor_.trace().expect_target(target_);
     supervisor_.trace().take_target();
@@ -245,7 +246,7 @@ class Unit {
   [[gnu::cold, gnu::noinline]] void order_parameters() {
     supervisor_.trace().expect_target(target_);
     supervisor_.order_parameters(design_.controller_parameters(values_), design_.target(target_),
-                                 design_.timeout_periods(values_));
+                                 design_.timeout_periods(values_), design_.calibration(values_));
   }
 
   /// What is saved is in force in the end, whatever stops come in between.

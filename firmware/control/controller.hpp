@@ -18,6 +18,7 @@ class Controller {
   using Measurement = typename PartsT::Vibration::Measurement;
   using Command = typename PartsT::Vibration::Command;
   using Parameters = ControllerParameters<PartsT>;
+  static constexpr bool reads_force = PartsT::Force::present;
 
   /// @param parameters  outlive this: a part may leave a table where it is
   explicit Controller(const Parameters& parameters)

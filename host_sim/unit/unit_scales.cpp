@@ -13,8 +13,13 @@ namespace {
 
 constexpr double millionths = 1e6;
 
-std::uint32_t rounded(double count) {
+std::uint32_t rounded(double count, bool is_signed) {
   const double whole = std::round(count);
+  if (is_signed) {
+    return std::abs(whole) <= INT32_MAX
+               ? static_cast<std::uint32_t>(static_cast<std::int32_t>(whole))
+               : static_cast<std::uint32_t>(INT32_MAX);
+  }
   return whole >= 0.0 && whole < UINT32_MAX ? static_cast<std::uint32_t>(whole) : UINT32_MAX;
 }
 
@@ -84,7 +89,10 @@ std::string UnitScales::text_of_parameter(std::size_t parameter, std::uint32_t c
   if (!is_force(parameter)) {
     return decimal(count, app::parameter_labels[parameter].decimal_places);
   }
-  const double force_N = count / millionths * force_of(parameter);
+  const double whole = app::parameter_labels[parameter].is_signed
+                           ? static_cast<double>(static_cast<std::int32_t>(count))
+                           : static_cast<double>(count);
+  const double force_N = whole / millionths * force_of(parameter);
   constexpr int most_places = 17;
   std::string text;
   for (int places = 0; places <= most_places; ++places) {
@@ -105,9 +113,10 @@ const char* UnitScales::unit_of_parameter(std::size_t parameter) const {
 }
 
 std::uint32_t UnitScales::count_of_parameter(std::size_t parameter, double value) const {
+  const app::ParameterLabel& label = app::parameter_labels[parameter];
   return is_force(parameter)
-             ? rounded(value / force_of(parameter) * millionths)
-             : rounded(value * std::pow(10.0, app::parameter_labels[parameter].decimal_places));
+             ? rounded(value / force_of(parameter) * millionths, label.is_signed)
+             : rounded(value * std::pow(10.0, label.decimal_places), label.is_signed);
 }
 
 double UnitScales::target_of(std::uint32_t count) const {
@@ -119,6 +128,7 @@ double UnitScales::force_of(std::size_t parameter) const {
     case app::Parameter::target:
       return holds_force() ? (*this)[link::Quantity::target].value : 0.0;
     case app::Parameter::friction_force:
+    case app::Parameter::force_offset:
       return (*this)[link::Quantity::friction_force].value;
     default:
       return 0.0;

@@ -96,7 +96,7 @@ ReadValue read_value(const std::string& text, std::size_t parameter, const UnitS
   }
   if (scales.is_force(parameter)) {
     const double force_N = number_of(text);
-    return {force_N < 0.0 ? UINT32_MAX : scales.count_of_parameter(parameter, force_N), ""};
+    return {scales.count_of_parameter(parameter, force_N), ""};
   }
   const int places = parameter_labels[parameter].decimal_places;
   const bool negative = text.front() == '-';

@@ -259,12 +259,12 @@ TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
     EXPECT_EQ(told.highest, range.highest);
     EXPECT_EQ(told.preset, range.preset);
   }
-  for (const int unknown : {9, 10, 255}) {
+  for (const int unknown : {11, 12, 255}) {
     const auto parameter = static_cast<std::uint8_t>(unknown);
     expect_refusal(powered.answer_to(link::ReadParameter{parameter}), link::ReadParameter::kind,
-                   Reason::unknown_parameter, 0, 8);
+                   Reason::unknown_parameter, 0, 10);
     expect_refusal(powered.answer_to(link::WriteParameter{parameter, 0}),
-                   link::WriteParameter::kind, Reason::unknown_parameter, 0, 8);
+                   link::WriteParameter::kind, Reason::unknown_parameter, 0, 10);
   }
 }
 

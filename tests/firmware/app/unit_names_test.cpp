@@ -85,9 +85,9 @@ TEST(UnitCodes, OfFaultsAreThoseOfTheReference) {
 }
 
 TEST(UnitCodes, OfTheParametersAreThoseOfTheReference) {
-  const std::string names[] = {"target",         "drive_limit",  "gain_scale",
-                               "friction_force", "speed_floor",  "stuck_periods",
-                               "start_on_power", "host_timeout", "bad_samples"};
+  const std::string names[] = {"target",      "drive_limit",   "gain_scale",     "friction_force",
+                               "speed_floor", "stuck_periods", "start_on_power", "host_timeout",
+                               "bad_samples", "force_offset",  "force_gain"};
   static_assert(std::size(names) == parameter_count);
   for (std::size_t i = 0; i < parameter_count; ++i) {
     EXPECT_EQ(parameter_labels[i].name, names[i]);
@@ -101,6 +101,8 @@ TEST(UnitCodes, OfTheParametersAreThoseOfTheReference) {
   EXPECT_EQ(static_cast<int>(Parameter::start_on_power), 6);
   EXPECT_EQ(static_cast<int>(Parameter::host_timeout), 7);
   EXPECT_EQ(static_cast<int>(Parameter::bad_samples), 8);
+  EXPECT_EQ(static_cast<int>(Parameter::force_offset), 9);
+  EXPECT_EQ(static_cast<int>(Parameter::force_gain), 10);
 }
 
 }  // namespace
