@@ -139,7 +139,7 @@ void add_connect_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "connect",
       "Talk to a running unit: each line of the standard input is a command, such as status, "
-      "target 0.45, stop or params; help lists all");
+      "target 0.45, stop, params or tare; help lists all");
   command
       ->add_option("device", options->device,
                    "Serial device of the unit; with --emulated a closed-loop scene, its TOML file "

@@ -11,6 +11,8 @@
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/unit/tare.hpp"
+#include "host_sim/unit/unit_refusal.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::unit {
@@ -50,6 +52,7 @@ const std::vector<Console::Command>& Console::commands() {
        }},
       {"set", "set NAME VALUE", 2, 2,
        [](Console& on, const Words& words) { return on.set_parameter(words[0], words[1]); }},
+      {"tare", "tare", 0, 0, [](Console& on, const Words&) { return on.tare(); }},
       {"stream", "stream CHANNEL ... [every N], stream off", 0, SIZE_MAX,
        [](Console& on, const Words& words) { return on.stream(words); }},
       {"plot", "plot CHANNEL", 1, 1,
@@ -223,6 +226,12 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
       "{} {}{}, saved", name,
       scales_.text_of_parameter(parameter, std::get<link::ParameterWritten>(result).value),
       scales_.is_force(parameter) ? " N" : "")};
+}
+
+Console::Lines Console::tare() try {
+  return {text_of(unit::tare(unit_, scales_), scales_)};
+} catch (const UnitRefusal& refusal) {
+  return refuse(refusal.what());
 }
 
 link::Telemetry Console::telemetry() {

@@ -57,6 +57,7 @@ class Console {
   Lines list_parameters();
   Lines list_parameter(const std::string& name);
   Lines set_parameter(const std::string& name, const std::string& text);
+  Lines tare();
 
   Lines stream(const Words& words);
   Lines plot(const std::string& channel);

@@ -26,12 +26,7 @@ constexpr auto interval = 5ms;
 
 template <class Answer, class Request>
 Answer StepRecorder::require(const Request& request, std::size_t parameter) {
-  const auto result = unit_.ask<Answer>(request);
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    throw UnitRefusal("the unit refuses: " + words_of(*refusal, parameter, scales_),
-                      static_cast<link::Reason>(refusal->reason) == link::Reason::out_of_range);
-  }
-  return std::get<Answer>(result);
+  return unit::require<Answer>(unit_, scales_, request, parameter);
 }
 
 RecordedTrace StepRecorder::undriven() {

@@ -3,27 +3,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <string>
 
-#include "host_sim/process/pipe.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_refusal.hpp"
 #include "host_sim/unit/unit_scales.hpp"
 #include "host_sim/unit/unit_trace.hpp"
 
 namespace sonoglide::unit {
-
-/// The unit answers, but refuses what it is asked, or has stopped by a fault.
-class UnitRefusal : public process::ProcessError {
- public:
-  explicit UnitRefusal(const std::string& words, bool out_of_range = false)
-      : ProcessError(words), out_of_range_(out_of_range) {}
-
-  /// Of a value that the unit does not have: what() has its range.
-  bool out_of_range() const { return out_of_range_; }
-
- private:
-  bool out_of_range_;
-};
 
 struct RecordedStep {
   RecordedTrace trace;

@@ -268,9 +268,10 @@ TEST_P(TimedUnit, RefusesWhatIsOutOfRangeAndRunsOn) {
   EXPECT_EQ(terminal.type("set gain_scale 0.5"), "stop the drive first");
   EXPECT_EQ(terminal.type("set gain 0.5"),
             "unknown parameter; there are: target, drive_limit, gain_scale, friction_force, "
-            "speed_floor, stuck_periods, start_on_power, host_timeout, bad_samples");
+            "speed_floor, stuck_periods, start_on_power, host_timeout, bad_samples, force_offset, "
+            "force_gain");
   const std::vector<std::string> lines = terminal.lines("params");
-  ASSERT_EQ(lines.size(), 9U);
+  ASSERT_EQ(lines.size(), 11U);
   EXPECT_EQ(lines[0], "target 0.4, compiled in 0.4; allowed is 0 to 1");
   EXPECT_EQ(lines[2], "gain_scale 1, compiled in 1; allowed is 0 to 1");
   expect_settled(terminal, 0.4);

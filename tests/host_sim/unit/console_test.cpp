@@ -16,6 +16,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <random>
 #include <regex>
 #include <stdexcept>
 #include <string>
@@ -100,21 +101,23 @@ struct ForceDesign {
 };
 
 /// A unit that is served as fast as the machine can, and so has no time of its own.
-template <class Design>
+template <class Design, class Board = app::TimedBoard>
 class ServedUnit {
  public:
   explicit ServedUnit(const PseudoTerminal& terminal) : link_(terminal) {}
+
+  Board& board() { return board_; }
 
  private:
   using Unit = app::Unit<typename Design::Parts, app::SimulatedFlash, std::atomic, steps_kept>;
   app::SimulatedFlash flash_;
   Unit unit_{Design::design, flash_};
-  app::TimedBoard board_;
+  Board board_;
   app::CountingWatchdog watchdog_;
   TerminalLink link_;
   using Service = app::LinkService<Unit, TerminalLink, 32, app::TestedProduct>;
   Service service_{unit_, link_};
-  app::TimedLoop<typename Unit::Supervisor, app::TimedBoard, app::CountingWatchdog, Service> loop_{
+  app::TimedLoop<typename Unit::Supervisor, Board, app::CountingWatchdog, Service> loop_{
       unit_.supervisor(), board_, watchdog_, service_};
   Device served_{[this] {
     loop_.serve();
@@ -188,14 +191,14 @@ TEST(UnitScalesTest, WhatIsNoForceIsCountedInDecimalPlaces) {
   EXPECT_EQ(ratio.text_of_parameter(limit_parameter, 800'000), "0.8");
 }
 
-template <class Design>
+template <class Design, class Board = app::TimedBoard>
 class ConsoleOf : public testing::Test {
  protected:
   Lines ask(const std::string& line) { return console_.carry_out(line); }
   std::string line_of(const std::string& line) { return ask(line).at(0); }
 
   PseudoTerminal terminal_;
-  ServedUnit<Design> served_{terminal_};
+  ServedUnit<Design, Board> served_{terminal_};
   process::SerialPort port_{terminal_.device()};
   UnitLink link_{port_};
   Console console_{link_};
@@ -491,7 +494,7 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
       "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
-      "set NAME VALUE, stream CHANNEL ... [every N], stream off, plot CHANNEL, trace, trace now, "
+      "set NAME VALUE, tare, stream CHANNEL ... [every N], stream off, plot CHANNEL, trace, trace now, "
       "trace on fault|target [STEPS_BEFORE], trace save FILE, step FROM TO [FILE], help";
   EXPECT_EQ(line_of("help"), commands);
   EXPECT_EQ(line_of(" go  now "), "\"go now\": unknown; there are: " + commands);
@@ -527,6 +530,81 @@ TEST_F(ConsoleTest, KnowsWhatIsNoNumber) {
   EXPECT_EQ(line_of("target 0.50000000").find("state off, target 0.5,"), 0U);
   EXPECT_EQ(line_of("set stuck_periods 20.0"), "stuck_periods 20, saved");
   EXPECT_EQ(console_.refused(), 12U);
+}
+
+/// Its contact is lifted: the force sensor reads its offset and noise.
+class LiftedBoard : public app::TimedBoard {
+ public:
+  bool sample(hal::Sample& sample) {
+    const bool goes_on = app::TimedBoard::sample(sample);
+    const double spread = std::uniform_real_distribution<double>(-1.0, 1.0)(random_);
+    sample.friction_force = static_cast<std::int32_t>((offset + noise * spread) * 0x1p31);
+    sample.sliding_velocity = static_cast<std::int32_t>(speed * 0x1p31);
+    return goes_on;
+  }
+
+  // Parts of full scale.
+  std::atomic<double> offset{0.03};
+  std::atomic<double> noise{0.0};
+  std::atomic<double> speed{0.0};
+
+ private:
+  std::mt19937 random_{1};
+};
+using LiftedConsole = ConsoleOf<RatioDesign, LiftedBoard>;
+
+// The unit shows what its present offset and gain make of the reading.
+TEST_F(LiftedConsole, ATareSavesTheOffsetThatTheSensorHas) {
+  ask("set force_gain 0.9");
+  ask("set force_offset -0.002");
+  EXPECT_EQ(line_of("tare"), "force_offset was -0.002 N, is 0.0012 N, standard error 0 N; saved");
+  EXPECT_EQ(line_of("params force_offset"),
+            "force_offset 0.0012, compiled in 0; allowed is -0.01 to 0.01 N");
+  EXPECT_EQ(line_of("tare"), "force_offset was 0.0012 N, is 0.0012 N, standard error 0 N; saved");
+  served_.board().offset = -0.2;
+  EXPECT_EQ(line_of("tare"), "force_offset was 0.0012 N, is -0.008 N, standard error 0 N; saved");
+  EXPECT_EQ(console_.refused(), 0U);
+}
+
+// 6e-4 of full scale are 4e-5 in the mean; allowed is 0.1 % of a friction of half the full scale.
+TEST_F(LiftedConsole, ATareNeedsASteadyForce) {
+  served_.board().noise = 1e-3;
+  const std::string saved = line_of("tare");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_match(
+      saved, found,
+      std::regex("force_offset was 0 N, is ([0-9.]+) N, standard error ([0-9.]+) uN; saved")))
+      << saved;
+  EXPECT_NEAR(std::stod(found[1]), 0.0012, 1e-5);
+  EXPECT_NEAR(std::stod(found[2]), 1.44, 0.9);
+  const std::string before = line_of("params force_offset");
+  served_.board().noise = 0.2;
+  const std::string refused = line_of("tare");
+  EXPECT_TRUE(std::regex_match(
+      refused, std::regex("the force is not steady: the standard error of its mean is [0-9.]+ uN; "
+                          "allowed is up to 20 uN, 0.1 % of friction_force")))
+      << refused;
+  EXPECT_EQ(line_of("params force_offset"), before);
+  EXPECT_EQ(console_.refused(), 1U);
+}
+
+TEST_F(LiftedConsole, ATareOutOfRangeChangesNothing) {
+  served_.board().offset = 0.3;
+  EXPECT_EQ(line_of("tare"), "force_offset would be 12 mN; allowed is -0.01 to 0.01 N");
+  EXPECT_EQ(line_of("params force_offset").find("force_offset 0,"), 0U);
+}
+
+TEST_F(LiftedConsole, ATareNeedsAStopAndNoLoad) {
+  served_.board().speed = 0.1;
+  EXPECT_EQ(line_of("tare").find("force_offset was 0 N, is 0.0012 N,"), 0U);
+  served_.board().offset = 0.03 + 0.3;
+  EXPECT_EQ(line_of("tare"),
+            "the contact slides at 500 mm/s under a friction of 12 mN: lift it first");
+  ask("restart");
+  EXPECT_EQ(line_of("tare"), "stop the drive first");
+  EXPECT_EQ(line_of("tare now"), "\"tare now\": allowed: tare");
+  EXPECT_EQ(line_of("params force_offset").find("force_offset 0.0012,"), 0U);
+  EXPECT_EQ(console_.refused(), 3U);
 }
 
 TEST_F(ConsoleTest, AStreamDoesNotOutliveItsHost) {
@@ -653,6 +731,48 @@ TEST(SaveTest, APlaceThatCannotBeWrittenIsToldBeforeTheTraceIsRead) {
   EXPECT_EQ(answer("/dev/null"), "/dev/null: is there already; allowed: a new file");
   EXPECT_EQ(answer("/proc/trace.csv").find("/proc: cannot be written: "), 0U);
   EXPECT_EQ(console.refused(), 5U);
+}
+
+/// What a unit answers to a tare that is off and has no range of an offset.
+std::string tare_of(store::Origin parameters) {
+  const PseudoTerminal terminal;
+  const FakeUnit unit(terminal, [=](const link::Frame& request) {
+    const std::uint16_t number = request.sequence;
+    link::Hello hello{};
+    link::ReadScale scale{};
+    link::ReadParameter parameter{};
+    if (link::read(request, hello)) {
+      return link::frame_of(link::Greeted{hello.session, 0}, number);
+    }
+    if (link::read(request, scale)) {
+      return link::frame_of(link::scale_of(scale.quantity, app::full_scales.at(scale.quantity)),
+                            number);
+    }
+    if (link::read(request, parameter)) {
+      return link::frame_of(link::ParameterValue{parameter.parameter, 6, 0, 0, 0, 0}, number);
+    }
+    if (request.kind == link::ReadTelemetry::kind) {
+      link::Telemetry told{};
+      told.parameters = static_cast<std::uint8_t>(parameters);
+      return link::frame_of(told, number);
+    }
+    EXPECT_EQ(request.kind, link::Stream::kind) << "something is written";
+    return refused_as_unknown(request);
+  });
+  process::SerialPort port(terminal.device());
+  UnitLink link(port);
+  return Console(link).carry_out("tare").at(0);
+}
+
+TEST(TareTest, NeedsAForceSensor) {
+  EXPECT_EQ(tare_of(store::Origin::stored), "the unit reads no force");
+}
+
+// What is saved would confirm all parameters.
+TEST(TareTest, LeavesParametersAloneThatNobodyHasConfirmed) {
+  for (const store::Origin origin : {store::Origin::other_design, store::Origin::damaged}) {
+    EXPECT_EQ(tare_of(origin), "see params and confirm them first");
+  }
 }
 
 TEST_F(TraceConsole, AFullDiskIsTold) {
