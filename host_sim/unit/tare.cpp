@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "firmware/app/unit_names.hpp"
 #include "firmware/control/interface/names.hpp"
-#include "firmware/store/two_page_store.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/unit/unit_refusal.hpp"
 #include "host_sim/unit/unit_words.hpp"

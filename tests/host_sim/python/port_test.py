@@ -85,6 +85,20 @@ def test_a_step_is_measured(unit):
     assert unit.status()["target"] == 0.7
 
 
+# The contact of an emulated board is always loaded: it reads half of full scale.
+def test_a_tare_under_load_is_refused(unit):
+    with pytest.raises(RuntimeError, match="the contact slides at .* under a friction of 19.62 mN: lift it first"):
+        unit.tare()
+    unit.set_parameter("friction_force", 0.03924)
+    with pytest.raises(RuntimeError, match="force_offset would be 19.62 mN; allowed is -0.00981 to 0.00981 N"):
+        unit.tare()
+    assert unit.parameter("force_offset")["value"] == 0.0
+    assert unit.parameter("force_offset")["lowest"] == -0.00981
+    unit.restart()
+    with pytest.raises(RuntimeError, match="stop the drive first"):
+        unit.tare()
+
+
 def test_a_force_is_ordered_in_newtons(tmp_path):
     of_force = ("controller.target_friction_ratio=", "controller.target_friction_force_N=[[0.0, 0.01]]")
     with running(image_of_scene(tmp_path, *of_force)) as unit:
