@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -177,7 +178,7 @@ class Port {
 
   /// A work of several requests, which other threads wait for.
   template <class Work>
-  auto in_turn(const Work& work) try {
+  std::invoke_result_t<Work> in_turn(const Work& work) try {
     const py::gil_scoped_release released;
     const std::lock_guard turn(turn_);
     return work();

@@ -1,4 +1,5 @@
 /// A unit whose force sensor is wrong does, once it is calibrated, what one with an ideal sensor does.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace {
 using Parts = configuration::Parts;
 
 constexpr auto design = SONOGLIDE_FIELD_DESIGN(configuration);
-constexpr double full_scale_N = 0.03924;
+constexpr double full_scale_N = configuration::full_scales[0].value;
 
 constexpr double sensor_offset = 0.03;  ///< of full scale
 constexpr double sensor_gain = 1.1;
@@ -38,7 +39,7 @@ class Calibrated : public UnitPort<Parts> {
     halt();
     std::array<double, unit::tare_readings> forces_N{};
     for (double& force_N : forces_N) {
-      step(unit, {static_cast<std::int32_t>(sensor_offset * 0x1p31), 0, false, true});
+      step(unit, hal::Sample{static_cast<std::int32_t>(sensor_offset * 0x1p31), 0, false, true});
       force_N = scales_.value_of(link::Quantity::friction_force,
                                  static_cast<std::uint32_t>(unit.supervisor().friction_force()));
     }
@@ -67,7 +68,7 @@ class Calibrated : public UnitPort<Parts> {
     store::Saving saving = store::Saving::busy;
     while (saving == store::Saving::busy) {
       saving = unit.proceed();
-      step(unit, {});
+      step(unit, hal::Sample{});
     }
     ASSERT_EQ(saving, store::Saving::saved);
   }
@@ -116,8 +117,8 @@ double difference(const std::vector<double>& found, const std::vector<double>& i
 
 const std::vector<std::string>& of_wrong_sensor() {
   static const std::vector<std::string> changes{
-      "sensor.force_offset_N=" + std::to_string(sensor_offset * full_scale_N),
-      "sensor.force_gain=" + std::to_string(sensor_gain)};
+      fmt::format("sensor.force_offset_N={}", sensor_offset * full_scale_N),
+      fmt::format("sensor.force_gain={}", sensor_gain)};
   return changes;
 }
 
