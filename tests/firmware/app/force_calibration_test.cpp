@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <random>
 
+#include "tests/firmware/app/unit/simulated_unit.hpp"
+
 namespace sonoglide::app::force_calibration_test {
 namespace {
 
@@ -55,6 +57,20 @@ TEST(ForceCalibration, AReadingAtTheRailStaysThere) {
   ForceCalibration::of(0, 500'000).apply(sample);
   EXPECT_TRUE(sample.force_at_rail);
   EXPECT_EQ(sample.friction_force, 1 << 29);
+}
+
+// Also while the board's hardware holds the unit in a fault.
+TEST(ForceCalibration, IsOfEverySampleThatAUnitShows) {
+  using Supervisor = TestedUnit::Supervisor;
+  Supervisor supervisor(field_design.controller_parameters(field_design.presets()),
+                        field_design.designed(), 0, 10, OrderedTargets(),
+                        ForceCalibration::of(0, 500'000));
+  const hal::Sample sample{1 << 30, 0, false, true};
+  supervisor.step(sample);
+  EXPECT_EQ(supervisor.friction_force(), 1 << 29);
+  supervisor.step({});
+  supervisor.hold(sample, 1);
+  EXPECT_EQ(supervisor.friction_force(), 1 << 29);
 }
 
 }  // namespace
