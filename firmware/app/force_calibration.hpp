@@ -32,7 +32,7 @@ class ForceCalibration {
   static constexpr ForceCalibration of(std::uint32_t offset, std::uint32_t gain) {
     const std::int64_t offset_code = rounded(static_cast<std::int32_t>(offset), 31);
     ForceCalibration result;
-    result.gain_ = static_cast<std::int32_t>(rounded(static_cast<std::int32_t>(gain), gain_bits));
+    result.gain_ = rounded(static_cast<std::int32_t>(gain), gain_bits);
     result.shift_ = half - offset_code * result.gain_;
     return result;
   }
@@ -49,12 +49,22 @@ class ForceCalibration {
  private:
   static constexpr int gain_bits = 29;
   static constexpr std::int64_t half = std::int64_t{1} << (gain_bits - 1);
-  static constexpr std::int64_t million = 1'000'000;
 
-  /// millionths 2^bits / 10^6, half away from zero.
-  static constexpr std::int64_t rounded(std::int32_t millionths, int bits) {
-    const std::int64_t twice = std::int64_t{millionths} * (std::int64_t{2} << bits);
-    return (twice + (twice < 0 ? -million : million)) / (2 * million);
+  /// millionths 2^bits / 10^6, half away from zero. Bit by bit: a small processor divides 64 bits with a kilobyte
+  /// of code.
+  static constexpr std::int32_t rounded(std::int32_t millionths, int bits) {
+    constexpr std::uint32_t million = 1'000'000;
+    const auto magnitude = static_cast<std::uint32_t>(millionths < 0 ? -millionths : millionths);
+    std::uint32_t result = magnitude / million;
+    std::uint32_t rest = magnitude % million;
+    for (int i = 0; i < bits; ++i) {
+      rest *= 2;
+      result = 2 * result + (rest >= million ? 1U : 0U);
+      rest -= rest >= million ? million : 0U;
+    }
+    result += 2 * rest >= million ? 1U : 0U;
+    const auto code = static_cast<std::int32_t>(result);
+    return millionths < 0 ? -code : code;
   }
 
   std::int32_t gain_ = std::int32_t{1} << gain_bits;
