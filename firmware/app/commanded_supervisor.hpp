@@ -100,6 +100,9 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
 
   // ---- The control side's ----
 
+  /// Of a reading the sample that step(), hold() and pass() take.
+  void calibrate(Sample& reading) const { calibration_.apply(reading); }
+
   /// One carrier period.
   const Drive& step(const Sample& sample) { return step(sample, look()); }
 
@@ -107,8 +110,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   Work look() { return orders_.look(); }
 
   /// A carrier period with what look() gave, here or in the run that is replayed.
-  const Drive& step(const Sample& reading, const Work& work) {
-    const Sample sample = calibrated(reading);
+  const Drive& step(const Sample& sample, const Work& work) {
     Base::begin(sample);
     course_.move(static_cast<const Base&>(*this));
     if (work.stop) {
@@ -127,9 +129,9 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
 
   /// In place of step(), see Supervisor::hold(). A stop stays in the fault, a restart is overtaken by it; other
   /// parameters are taken.
-  const Drive& hold(const Sample& reading, std::uint8_t cause) {
+  const Drive& hold(const Sample& sample, std::uint8_t cause) {
     const Work work = look();
-    Base::hold(calibrated(reading), cause);
+    Base::hold(sample, cause);
     course_.move(static_cast<const Base&>(*this));
     if (work.order == nullptr) {
       watch_service();
@@ -230,11 +232,6 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   void note_service() { rounds_.store(++rounds_of_service_, std::memory_order_release); }
 
  private:
-  Sample calibrated(Sample sample) const {
-    calibration_.apply(sample);
-    return sample;
-  }
-
   /// @return whether the period has its step all the same
   bool carry_out(const Order& order) {
     if (order.kind != Kind::parameters && order.faults != Base::faults().count()) {

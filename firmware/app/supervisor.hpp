@@ -137,7 +137,8 @@ class Supervisor {
     return drive_;
   }
 
-  // Nobody serves it, nobody looks at it, and its target stands: see CommandedSupervisor.
+  // Nobody serves it, calibrates it or looks at it, and its target stands: see CommandedSupervisor.
+  static constexpr void calibrate(const Sample& /*reading*/) {}
   static constexpr bool serviced() { return true; }
   static void publish() {}
   static void note_service() {}

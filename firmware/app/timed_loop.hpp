@@ -53,6 +53,7 @@ class TimedLoop {
     if (!board_.sample(sample)) {
       return false;
     }
+    supervisor_.calibrate(sample);
     const std::uint32_t period = board_.period();
     const bool none_lost = !begun_ || period == period_ + 1;
     begun_ = true;

@@ -489,6 +489,21 @@ TEST(TrippedBoard, EndsTheDriveInItsPeriodUntilARestartThatComesAfter) {
   EXPECT_EQ(supervisor.faults().count(), 1U);
 }
 
+TEST(TrippedBoard, HasItsForceCalibratedAsEver) {
+  TestedUnit::Supervisor supervisor(field_design.controller_parameters(field_design.presets()),
+                                    field_design.designed(), 0, 10, OrderedTargets(),
+                                    ForceCalibration::of(0, 500'000));
+  TrippingBoard board;
+  CountingWatchdog watchdog;
+  NoService service;
+  TimedLoop loop(supervisor, board, watchdog, service);
+  for (const std::uint8_t cause : {std::uint8_t{0}, std::uint8_t{5}}) {
+    board.cause = cause;
+    ASSERT_TRUE(loop.serve());
+    EXPECT_EQ(supervisor.friction_force(), 1 << 29);  // half of the contact's half
+  }
+}
+
 TEST(TrippedBoard, RefusesARestartAndKeepsTheFaultOverAStopWhileItLasts) {
   SimulatedFlash flash;
   TestedUnit unit(field_design, flash);

@@ -56,8 +56,9 @@ struct NoEncoder {};
 
 /// One carrier period.
 template <class UnitT, class Sample, class Board>
-const typename UnitT::Supervisor::Drive& step(UnitT& unit, const Sample& sample, Board& board) {
+const typename UnitT::Supervisor::Drive& step(UnitT& unit, Sample sample, Board& board) {
   unit.supervisor().note_service();
+  unit.supervisor().calibrate(sample);
   const auto& drive = unit.supervisor().step(sample);
   unit.supervisor().pass(sample, board);
   return drive;
