@@ -30,8 +30,13 @@ endfunction()
 # carrier_refusal(<board> <name> <what the compiler says> <scene> <setting>...)
 function(carrier_refusal board name reason scene)
   carrier_controller(${board}/refused_${name} ${scene} ${ARGN})
+  carrier_refused(${board} ${name} ${reason})
   set(folders ${folders} PARENT_SCOPE)
   set(written ${written} PARENT_SCOPE)
+endfunction()
+
+# carrier_refused(<board> <name> <what the compiler or linker says>): of a controller that there is.
+function(carrier_refused board name reason)
   set(test boards.${board}.${name}_is_refused)
   add_test(NAME ${test} COMMAND "${CMAKE_COMMAND}" --build "${${board}_images}" --target refused_${name}_unit)
   set_tests_properties(${test} PROPERTIES

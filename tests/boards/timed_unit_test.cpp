@@ -380,6 +380,29 @@ TEST_P(TimedUnit, AnExceptionTakesTheDriveAwayAndIsKeptOverTheReset) {
   expect_undefined_instruction(GetParam().name, exception, fault_status);
 }
 
+TEST_P(TimedUnit, WhatItsImageDoesFirstComesBeforeStaticObjectsHaveTheirValues) {
+  Terminal terminal(emulate(GetParam().name, "target_step_begun", GetParam().speed));
+  struct Line {
+    std::uint32_t resets, found_filled, found_cleared, filled, cleared;
+  };
+  const auto next = [&terminal] {
+    std::istringstream words(terminal.next_line());
+    Line line{};
+    words >> line.resets >> line.found_filled >> line.found_cleared >> line.filled >> line.cleared;
+    return line;
+  };
+  const Line first = next();
+  terminal.request_reset();
+  const Line second = next();
+  EXPECT_EQ(second.resets, first.resets + 1);
+  EXPECT_EQ(second.found_filled, 2002U);
+  EXPECT_EQ(second.found_cleared, 3003U);
+  for (const Line& line : {first, second}) {
+    EXPECT_EQ(line.filled, 1001U);
+    EXPECT_EQ(line.cleared, 0U);
+  }
+}
+
 std::string name_of(const TimedBoard& board) {
   return board.name;
 }

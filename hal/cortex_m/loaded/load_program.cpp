@@ -12,6 +12,7 @@ extern const std::uint32_t program_image[];
 extern std::uint32_t program_begin[];
 extern std::uint32_t program_end[];
 extern std::uint32_t stack_top[];
+void board_entry();
 }
 
 /// In place of the program's exception handlers. The pins are as after a reset: the drive is off.
@@ -19,6 +20,16 @@ extern std::uint32_t stack_top[];
   for (;;) {
   }
 }
+
+struct VectorTable {
+  std::uint32_t* initial_stack;
+  void (*board_entry)();
+  void (*exceptions[14])();
+};
+
+}  // namespace
+
+extern "C" {
 
 // Through volatile, because a call to copy memory would lead to where nothing is yet.
 [[gnu::section(".boot"), noreturn]] void load_program() {
@@ -35,18 +46,10 @@ extern std::uint32_t stack_top[];
   __builtin_unreachable();
 }
 
-struct VectorTable {
-  std::uint32_t* initial_stack;
-  void (*reset)();
-  void (*exceptions[14])();
-};
-
-}  // namespace
-
-extern "C" {
 [[gnu::section(".boot_vectors")]] extern const VectorTable boot_vectors;
 const VectorTable boot_vectors = {
     stack_top,
-    load_program,
+    board_entry,
     {stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay, stay}};
-}
+
+}  // extern "C"
