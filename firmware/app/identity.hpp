@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/kept_exception.hpp"
+
 namespace sonoglide::app {
 
 /// Of this firmware, as that of the host program.
@@ -20,10 +22,12 @@ inline constexpr Version version{0, 1, 0};
 ///   struct Product : app::Unnamed {
 ///     static constexpr const char* board = "rail-drive-2";  // at most link::most_name_characters
 ///     static std::uint32_t serial_number();                 // 0: none was given
+///     static inline const hal::KeptException* exception = nullptr;  // as its main took it; null: none
 ///   };
 struct Unnamed {
   static constexpr const char* board = "";
   static std::uint32_t serial_number() { return 0; }
+  static constexpr std::nullptr_t exception = nullptr;  ///< it keeps none
 };
 
 /// The characters of a name, with zeros behind them; to be called at compile time, where a name that is

@@ -1,7 +1,9 @@
 /// What a host asks of a unit, and what it is answered.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/app/identity.hpp"
 #include "firmware/app/mismatch.hpp"
@@ -9,6 +11,7 @@
 #include "firmware/app/unit.hpp"
 #include "firmware/link/frame.hpp"
 #include "firmware/link/messages.hpp"
+#include "hal/kept_exception.hpp"
 
 namespace sonoglide::app {
 
@@ -92,7 +95,7 @@ class UnitRequests {
                        handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
                        handles<link::Hello>(request) || handles<link::ReadIdentity>(request) ||
                        handles<link::ReadScale>(request) || handles<link::Stream>(request) ||
-                       handles_trace(request);
+                       handles_trace(request) || handles_exception(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
     }
@@ -102,6 +105,14 @@ class UnitRequests {
     if constexpr (trace_records > 0) {
       return handles<link::ArmTrace>(request) || handles<link::ReadTraceState>(request) ||
              handles<link::ReadTraceRecord>(request);
+    } else {
+      return false;
+    }
+  }
+
+  bool handles_exception([[maybe_unused]] const link::Frame& request) {
+    if constexpr (!std::is_same_v<decltype(Product::exception), const std::nullptr_t>) {
+      return handles<link::ReadException>(request);
     } else {
       return false;
     }
@@ -269,6 +280,17 @@ class UnitRequests {
       answer(link::LoggedFault{request.age, entry.fault, entry.period, count});
     } else {
       refuse(request.kind, link::Reason::no_such_fault, 0, static_cast<std::uint32_t>(log.kept()));
+    }
+  }
+
+  void carry_out(const link::ReadException& request) {
+    const hal::KeptException* const kept = Product::exception;
+    if (kept == nullptr) {
+      refuse(request.kind, link::Reason::no_such_fault);
+    } else {
+      answer(link::KeptException{kept->exception, kept->program_counter, kept->link_register,
+                                 kept->program_status, kept->fault_status, kept->hard_fault_status,
+                                 kept->fault_address});
     }
   }
 

@@ -12,6 +12,7 @@
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/image/carrier/carrier_board.hpp"
+#include "hal/kept_exception.hpp"
 #include "hal/trace_records.hpp"
 
 namespace {
@@ -36,6 +37,7 @@ constexpr app::FieldDesign<configuration::Parts> design(
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
+  static inline const sonoglide::hal::KeptException* exception = nullptr;
 };
 
 using Course = decltype(app::course_of<CarrierBoard>(configuration::target_steps));
@@ -54,6 +56,7 @@ extern "C" void take_carrier() {
 
 // Whatever the carrier's interrupt does not do; a board whose fast memory is short keeps it elsewhere.
 [[gnu::section(".text.service")]] int main() {
+  Product::exception = sonoglide::hal::take_kept_exception();
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;

@@ -13,6 +13,7 @@
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
+#include "hal/kept_exception.hpp"
 #include "hal/serial_line.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/trace_records.hpp"
@@ -44,6 +45,7 @@ constexpr app::FieldDesign<configuration::Parts> design(
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
+  static inline const sonoglide::hal::KeptException* exception = nullptr;
 };
 
 using Course = decltype(app::course_of<Hardware::Board>(configuration::target_steps));
@@ -60,6 +62,7 @@ static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_perio
 }  // namespace
 
 int main() {
+  Product::exception = sonoglide::hal::take_kept_exception();
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;

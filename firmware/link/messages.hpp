@@ -253,11 +253,42 @@ struct Identity {
   }
 };
 
+/// Asks for KeptException.
+struct ReadException {
+  static constexpr std::uint8_t kind = 0x10;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+/// The exception of the processor that ended the run before the reset, see hal::KeptException.
+struct KeptException {
+  static constexpr std::uint8_t kind = ReadException::kind | answer_bit;
+  std::uint32_t exception;
+  std::uint32_t program_counter;
+  std::uint32_t link_register;
+  std::uint32_t program_status;
+  std::uint32_t fault_status;
+  std::uint32_t hard_fault_status;
+  std::uint32_t fault_address;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.exception);
+    visit(message.program_counter);
+    visit(message.link_register);
+    visit(message.program_status);
+    visit(message.fault_status);
+    visit(message.hard_fault_status);
+    visit(message.fault_address);
+  }
+};
+
 /// Asks for what may have changed since, and changes nothing: to be answered anew each time.
 constexpr bool is_reading(std::uint8_t kind) {
   return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind ||
          kind == ReadIdentity::kind || kind == ReadTraceState::kind ||
-         kind == ReadTraceRecord::kind || kind == ReadScale::kind;
+         kind == ReadTraceRecord::kind || kind == ReadScale::kind || kind == ReadException::kind;
 }
 
 enum class Reason : std::uint8_t {
@@ -265,7 +296,7 @@ enum class Reason : std::uint8_t {
   wrong_length,
   out_of_range,       ///< lowest and highest name what is allowed
   unknown_parameter,  ///< of lowest … highest
-  no_such_fault,      ///< that many are kept: highest
+  no_such_fault,      ///< that many are kept: highest; of exceptions none
   drive_not_stopped,
   not_saved,    ///< the store could not be written; the old value stands
   out_of_turn,  ///< an older frame than the last, whose sequence number is in lowest and highest

@@ -185,6 +185,10 @@ Console::Lines Console::log() {
     count = fault->count;
   }
   lines.push_back(fmt::format("faults since reset: {}", count));
+  const auto result = unit_.ask<link::KeptException>(link::ReadException{});
+  if (const auto* kept = std::get_if<link::KeptException>(&result)) {
+    lines.push_back(text_of(*kept));
+  }
   return lines;
 }
 

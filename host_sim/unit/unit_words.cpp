@@ -169,4 +169,12 @@ std::string text_of(const link::Identity& told) {
                      told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
 }
 
+std::string text_of(const link::KeptException& told) {
+  return fmt::format(
+      "exception {} before the reset: program counter {:#010x}, link register {:#010x}, program "
+      "status {:#010x}, fault status {:#010x}, hard fault status {:#010x}, fault address {:#010x}",
+      told.exception, told.program_counter, told.link_register, told.program_status,
+      told.fault_status, told.hard_fault_status, told.fault_address);
+}
+
 }  // namespace sonoglide::unit

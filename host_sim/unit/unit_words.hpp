@@ -46,5 +46,6 @@ std::string text_of(const link::ParameterValue& value, const UnitScales& scales)
 std::string text_of(const link::Telemetry& told, const UnitScales& scales);
 std::string text_of(const UnitScales& scales);
 std::string text_of(const link::Identity& told);
+std::string text_of(const link::KeptException& told);
 
 }  // namespace sonoglide::unit

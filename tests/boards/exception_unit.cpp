@@ -10,7 +10,7 @@
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/encoding/decimal.hpp"
-#include "hal/exception/kept_exception.hpp"
+#include "hal/kept_exception.hpp"
 #include "hal/no_watchdog.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/timed/drive_register.hpp"
@@ -62,17 +62,15 @@ void tell(Hardware::ByteLink& bytes, const sonoglide::hal::KeptException& kept) 
   send(bytes, kept.program_counter, ' ');
   send(bytes, kept.program_status, ' ');
   send(bytes, kept.fault_status, ' ');
-  sonoglide::hal::KeptException again{};
-  send(bytes, sonoglide::hal::take_kept_exception(again) ? 1 : 0, '\n');
+  send(bytes, sonoglide::hal::take_kept_exception() != nullptr ? 1 : 0, '\n');
 }
 
 }  // namespace
 
 int main() {
   Hardware::ByteLink bytes;
-  sonoglide::hal::KeptException kept{};
-  if (sonoglide::hal::take_kept_exception(kept)) {
-    tell(bytes, kept);
+  if (const auto* kept = sonoglide::hal::take_kept_exception()) {
+    tell(bytes, *kept);
     return 0;
   }
   Hardware::Board board(static_cast<std::uint32_t>(period_ticks));

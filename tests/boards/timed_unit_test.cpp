@@ -403,6 +403,38 @@ TEST_P(TimedUnit, WhatItsImageDoesFirstComesBeforeStaticObjectsHaveTheirValues) 
   }
 }
 
+/// Where RAM begins, by the linker script.
+std::uint32_t ram_of(const std::string& board) {
+  return board == "riscv32-virt" ? 0x80400000 : board == "mps2-an505" ? 0x38000000 : 0x20000000;
+}
+
+/// From each reset on, what an exception before it would have left in section .noinit.
+std::vector<std::string> with_kept_exception(std::vector<std::string> command,
+                                             std::uint32_t address) {
+  std::uint32_t check = 0x811c9dc5;  // FNV-1a
+  const auto load = [&](std::uint32_t word) {
+    command.insert(command.end(), {"-device", "loader,addr=" + std::to_string(address) +
+                                                  ",data=" + std::to_string(word) + ",data-len=4"});
+    address += 4;
+  };
+  for (const std::uint32_t word :
+       {3U, 0x1234U, 0x5679U, 0x61000003U, 0x10000U, 0x40000000U, 0x40000001U}) {
+    check = (check ^ word) * 0x01000193;
+    load(word);
+  }
+  load(check);
+  return command;
+}
+
+TEST_P(TimedUnit, TellsItsHostOfAnExceptionBeforeTheReset) {
+  Terminal terminal(with_kept_exception(at_speed(GetParam().speed), ram_of(GetParam().name)));
+  terminal.connect();
+  EXPECT_EQ(terminal.lines("log").back(),
+            "exception 3 before the reset: program counter 0x00001234, link register 0x00005679, "
+            "program status 0x61000003, fault status 0x00010000, hard fault status 0x40000000, "
+            "fault address 0x40000001");
+}
+
 std::string name_of(const TimedBoard& board) {
   return board.name;
 }

@@ -204,7 +204,7 @@ if(CMAKE_CROSSCOMPILING)
   sonoglide_room(sonoglide_semihosting hal/semihosting USES sonoglide_lockstep_board)
   sonoglide_room(sonoglide_halt hal/halt USES sonoglide_start sonoglide_timed)
   # In the images that name it alone.
-  sonoglide_room(sonoglide_exception hal/exception USES sonoglide_start)
+  sonoglide_room(sonoglide_exception hal/exception USES sonoglide_hal sonoglide_start)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
     sonoglide_room(sonoglide_processor hal/cortex_m USES sonoglide_start sonoglide_exception)
     sonoglide_room(sonoglide_loaded hal/cortex_m/loaded USES sonoglide_processor)

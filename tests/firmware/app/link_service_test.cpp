@@ -170,6 +170,32 @@ TEST(LinkServiceTest, TellsTheFullScalesOfItsDesign) {
                  Reason::out_of_range, 0, link::quantity_count - 1);
 }
 
+TEST(LinkServiceTest, TellsTheExceptionThatWasKeptOverTheReset) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  expect_refusal(powered.answer_to(link::ReadException{}), link::ReadException::kind,
+                 Reason::no_such_fault, 0, 0);
+  const hal::KeptException kept{3, 0x1234, 0x5679, 0x61000003, 1U << 16, 1U << 30, 0xe000ed00};
+  TestedProduct::exception = &kept;
+  const auto told = powered.ask<link::KeptException>(link::ReadException{});
+  TestedProduct::exception = nullptr;
+  EXPECT_EQ(told.exception, kept.exception);
+  EXPECT_EQ(told.program_counter, kept.program_counter);
+  EXPECT_EQ(told.link_register, kept.link_register);
+  EXPECT_EQ(told.program_status, kept.program_status);
+  EXPECT_EQ(told.fault_status, kept.fault_status);
+  EXPECT_EQ(told.hard_fault_status, kept.hard_fault_status);
+  EXPECT_EQ(told.fault_address, kept.fault_address);
+}
+
+TEST(LinkServiceTest, AnImageThatKeepsNoExceptionDoesNotKnowTheRequest) {
+  SimulatedFlash flash;
+  TestedUnit unit(field_design, flash);
+  UnitRequests<TestedUnit, Unnamed> requests(unit);
+  requests.take(link::frame_of(link::ReadException{}, 1), 0);
+  expect_refusal(requests.answer(), link::ReadException::kind, Reason::unknown_request, 0, 0);
+}
+
 TEST(LinkServiceTest, HasNoNameWhereNoneWasGiven) {
   EXPECT_STREQ(Unnamed::board, "");
   EXPECT_EQ(Unnamed::serial_number(), 0U);

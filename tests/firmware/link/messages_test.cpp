@@ -113,6 +113,18 @@ LoggedFault logged_fault() {
   return message;
 }
 
+KeptException kept_exception() {
+  KeptException message{};
+  message.exception = 3;
+  message.program_counter = 0x01020304;
+  message.link_register = 0x11121315;
+  message.program_status = 0x61000003;
+  message.fault_status = 0x00010000;
+  message.hard_fault_status = 0x40000000;
+  message.fault_address = 0x40000000;
+  return message;
+}
+
 Refusal refusal() {
   Refusal message{};
   message.request = 4;
@@ -169,6 +181,9 @@ TEST(MessageBytes, AreThoseOfTheReference) {
        "0004028f0f0f030248dc63e94317a43f793fe0d100"},
       {frame_of(scale_of(4, {ScaleUnit::none, 0.0}), 15),
        "0004028f0f02040101010101010101054372b0cc00"},
+      {frame_of(ReadException{}, 16), "000402101005b6a6a9dd00"},
+      {frame_of(kept_exception(), 16),
+       "0004029010020301010a040302011513121103010261010201010101024001010640871442f600"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {

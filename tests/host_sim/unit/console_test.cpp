@@ -101,7 +101,7 @@ struct ForceDesign {
 };
 
 /// A unit that is served as fast as the machine can, and so has no time of its own.
-template <class Design, class Board = app::TimedBoard>
+template <class Design, class Board = app::TimedBoard, class Product = app::TestedProduct>
 class ServedUnit {
  public:
   explicit ServedUnit(const PseudoTerminal& terminal) : link_(terminal) {}
@@ -115,7 +115,7 @@ class ServedUnit {
   Board board_;
   app::CountingWatchdog watchdog_;
   TerminalLink link_;
-  using Service = app::LinkService<Unit, TerminalLink, 32, app::TestedProduct>;
+  using Service = app::LinkService<Unit, TerminalLink, 32, Product>;
   Service service_{unit_, link_};
   app::TimedLoop<typename Unit::Supervisor, Board, app::CountingWatchdog, Service> loop_{
       unit_.supervisor(), board_, watchdog_, service_};
@@ -191,14 +191,14 @@ TEST(UnitScalesTest, WhatIsNoForceIsCountedInDecimalPlaces) {
   EXPECT_EQ(ratio.text_of_parameter(limit_parameter, 800'000), "0.8");
 }
 
-template <class Design, class Board = app::TimedBoard>
+template <class Design, class Board = app::TimedBoard, class Product = app::TestedProduct>
 class ConsoleOf : public testing::Test {
  protected:
   Lines ask(const std::string& line) { return console_.carry_out(line); }
   std::string line_of(const std::string& line) { return ask(line).at(0); }
 
   PseudoTerminal terminal_;
-  ServedUnit<Design, Board> served_{terminal_};
+  ServedUnit<Design, Board, Product> served_{terminal_};
   process::SerialPort port_{terminal_.device()};
   UnitLink link_{port_};
   Console console_{link_};
@@ -222,6 +222,21 @@ TEST_F(ConsoleTest, StartsStopsAndSaysHowTheUnitIs) {
   EXPECT_EQ(line_of("stop").find("state off, target 0.7, drive 0 N,"), 0U);
   EXPECT_EQ(ask("log"), (Lines{"faults since reset: 0"}));
   EXPECT_EQ(console_.refused(), 1U);
+}
+
+struct ProductAfterAnException : app::TestedProduct {
+  static constexpr hal::KeptException kept{3,        0x1234,   0x5679,    0x61000003,
+                                           1U << 16, 1U << 30, 0x40000000};
+  static inline const hal::KeptException* exception = &kept;
+};
+using ConsoleAfterAnException = ConsoleOf<RatioDesign, app::TimedBoard, ProductAfterAnException>;
+
+TEST_F(ConsoleAfterAnException, LogEndsWithIt) {
+  EXPECT_EQ(ask("log"),
+            (Lines{"faults since reset: 0",
+                   "exception 3 before the reset: program counter 0x00001234, link register "
+                   "0x00005679, program status 0x61000003, fault status 0x00010000, hard fault "
+                   "status 0x40000000, fault address 0x40000000"}));
 }
 
 TEST_F(ConsoleTest, SaysWhatTheUnitIs) {

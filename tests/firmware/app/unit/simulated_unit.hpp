@@ -18,6 +18,7 @@
 #include "firmware/control/limits/slew_limit.hpp"
 #include "firmware/numeric/scalar.hpp"
 #include "hal/board.hpp"
+#include "hal/kept_exception.hpp"
 #include "tests/firmware/app/flash/simulated_flash.hpp"
 
 namespace sonoglide::app {
@@ -31,6 +32,7 @@ using TestedUnit = Unit<Parts, SimulatedFlash>;
 struct TestedProduct : Unnamed {
   static constexpr const char* board = "test-stand";
   static std::uint32_t serial_number() { return 4711; }
+  static inline const hal::KeptException* exception = nullptr;
 };
 
 inline constexpr control::Controller<Parts>::Parameters designed = [] {
