@@ -49,7 +49,8 @@ class Elf:
 
 
 class Machine:
-    """memories: address and size of each; peripherals: likewise, answered by read() and write() of a board."""
+    """memories: address and size of each; peripherals: likewise, answered by read() and write() of a board, which
+    also has fast_memory: where the code of its interrupts is."""
 
     def __init__(self, file, model, memories, peripherals):
         self.elf = Elf(file)
@@ -63,12 +64,16 @@ class Machine:
         self.registers = {}
         self.accesses = None  # a list while they are recorded
         self.instructions = 0
+        self.in_interrupt = False
+        self.from_flash = set()  # of instructions that wait for a flash
         for address, size in [*peripherals, (SYSTEM, PAGE)]:
             self.uc.mmio_map(address, size, self._read, address, self._write, address)
         self.uc.hook_add(UC_HOOK_CODE, self._count)
 
-    def _count(self, *_):
+    def _count(self, _, address, *__):
         self.instructions += 1
+        if self.in_interrupt and address not in self.fast_memory:
+            self.from_flash.add(address)
 
     def _read(self, _, offset, size, base):
         address = base + offset
@@ -135,4 +140,8 @@ class Machine:
 
     def interrupt(self, number):
         assert self.enabled(number), f"interrupt {number} is not enabled"
-        return self.take(FIRST_INTERRUPT + number)
+        self.in_interrupt = True
+        taken = self.take(FIRST_INTERRUPT + number)
+        self.in_interrupt = False
+        assert not self.from_flash, f"an interrupt runs from flash, at {min(self.from_flash):#x}"
+        return taken

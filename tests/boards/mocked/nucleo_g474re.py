@@ -33,6 +33,7 @@ class Board(Machine):
     peripheral_space = range(0x40000000, 0x60000000)
     streams = ()
     memory_space = range(0x20000000, 0x20018000)
+    fast_memory = range(0x10000000, 0x10008000)
 
     def __init__(self, file):
         super().__init__(file, UC_CPU_ARM_CORTEX_M4,

@@ -59,6 +59,7 @@ class Board(Machine):
     peripheral_space = range(0x40000000, 0x60000000)
     streams = range(LINK, LINK + 0x10)
     memory_space = range(0x20040000, 0x20080000)
+    fast_memory = range(0x20000000, 0x20080000)
 
     def __init__(self, file):
         super().__init__(file, UC_CPU_ARM_CORTEX_M33,
