@@ -67,7 +67,6 @@ constexpr std::uint32_t clocks_until_held = (12500 + 2125) * converter_clocks / 
 constexpr std::uint32_t request_of_pair = 5;
 constexpr std::uint32_t request_of_vibration = 37;
 constexpr std::uint32_t carrier_interrupt = 25;
-constexpr std::size_t interrupts = 102;
 
 void wait_microseconds(std::uint32_t time) {
   for (std::uint32_t i = 0; i < time * (system_hz / 1000000); ++i) {
@@ -164,7 +163,7 @@ Board::Board(std::uint32_t period_ticks)
 }
 
 void Board::interrupt() {
-  cortex_m::take_interrupt<interrupts>(carrier_interrupt, take_carrier);
+  cortex_m::take_interrupt(carrier_interrupt, take_carrier);
   carrier_timer.interrupting = update_event;
 }
 

@@ -101,7 +101,7 @@ Board::Board(std::uint32_t period_ticks) : half_period_(period_ticks / 2) {
 }
 
 void Board::interrupt() {
-  cortex_m::take_interrupt<interrupts>(carrier_interrupt, take_carrier);
+  cortex_m::take_interrupt(carrier_interrupt, take_carrier);
   carrier_events.interrupting = slice_event;
 }
 

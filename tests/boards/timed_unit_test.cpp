@@ -498,6 +498,28 @@ INSTANTIATE_TEST_SUITE_P(Boards, TimedUnitWatchdog,
                          testing::ValuesIn(tested<const char*>({"mps2-an386", "mps2-an505"})),
                          named_after_its_board);
 
+/// On a Cortex-M.
+class OwnInterrupts : public testing::TestWithParam<const char*> {};
+
+TEST_P(OwnInterrupts, ComeInTheOrderOfTheirPrioritiesAndOneWithoutAHandlerIsKept) {
+  Terminal terminal(emulate(GetParam(), "target_step_vectored", 5));
+  const std::string came = terminal.next_line();
+  EXPECT_EQ(came, GetParam() == std::string("microbit") ? "123" : "123452");
+  std::string kept = came;
+  for (int i = 0; i < 100 && kept == came; ++i) {
+    std::this_thread::sleep_for(20ms);  // the reset may come before the interrupt even so
+    terminal.request_reset();
+    kept = terminal.next_line();
+  }
+  EXPECT_EQ(kept, std::to_string(16 + 7));
+}
+
+INSTANTIATE_TEST_SUITE_P(Boards, OwnInterrupts,
+                         testing::ValuesIn(tested<const char*>({"microbit", "mps2-an385",
+                                                                "mps2-an386", "mps2-an500",
+                                                                "mps2-an505", "netduinoplus2"})),
+                         named_after_its_board);
+
 /// The controller of a scene with controller.every_periods = 16, on the board's timer at the period of its
 /// steps; on the smallest processor at eight times as much.
 class ReplayedRun : public testing::TestWithParam<const char*> {};

@@ -58,14 +58,23 @@ function(sonoglide_plant_images memory)
   endforeach()
 endfunction()
 
-# sonoglide_board(<name> FOLDER <f> CLASS <c>): a board that keeps its own carrier periods. Its class
-# is in <f>/board.hpp, its memory map in <f>/memory.ld.
+# sonoglide_interrupts(<number>): that the board has, beside the exceptions of its Cortex-M. Of one that does not say,
+# an image with handlers has as many vectors as the architecture allows (hal/cortex_m/interrupts.hpp).
+function(sonoglide_interrupts number)
+  if(number)
+    target_compile_definitions(sonoglide_processor PUBLIC SONOGLIDE_INTERRUPTS=${number})
+  endif()
+endfunction()
+
+# sonoglide_board(<name> FOLDER <f> CLASS <c> [INTERRUPTS <number>]): a board that keeps its own carrier periods. Its
+# class is in <f>/board.hpp, its memory map in <f>/memory.ld.
 function(sonoglide_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "FOLDER;CLASS" "" ${ARGN})
+  cmake_parse_arguments(BOARD "" "FOLDER;CLASS;INTERRUPTS" "" ${ARGN})
+  sonoglide_interrupts("${BOARD_INTERRUPTS}")
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
   sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
     CLASS ${BOARD_CLASS} HEADER ${BOARD_FOLDER}/board.hpp
@@ -73,7 +82,7 @@ function(sonoglide_board name)
 endfunction()
 
 # sonoglide_carrier_board(<name> FOLDER <f> [CHIP <chip>] HARDWARE <class>
-#   SERIAL_BOARD <class> [ENCODER]): a board whose carrier interrupts. Its
+#   SERIAL_BOARD <class> [INTERRUPTS <number>] [ENCODER]): a board whose carrier interrupts. Its
 # class is in <f>/board.hpp, its memory map in <f>/memory.ld; of boards that differ in their chip alone, what is
 # the chip's own is in <f>/<chip>. Each controller gives <name of its folder>_unit.elf, with
 # a link to its host, and <name>_scene.elf, with the targets of its scene, and <name>_serial.elf, in lockstep with a
@@ -84,7 +93,8 @@ function(sonoglide_carrier_board name)
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "ENCODER" "FOLDER;CHIP;HARDWARE;SERIAL_BOARD" "" ${ARGN})
+  cmake_parse_arguments(BOARD "ENCODER" "FOLDER;CHIP;HARDWARE;SERIAL_BOARD;INTERRUPTS" "" ${ARGN})
+  sonoglide_interrupts("${BOARD_INTERRUPTS}")
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} FOLDERS ${BOARD_CHIP} USES sonoglide_lockstep_board sonoglide_loaded)
   set(memory ${BOARD_FOLDER}/memory.ld)
   if(BOARD_CHIP)
@@ -134,14 +144,15 @@ function(sonoglide_carrier_board name)
 endfunction()
 
 # sonoglide_emulated_board(<name> FOLDER <f> [MEMORY <its linker script>] SERIAL_BOARD <class>
-#   [TIMED_HARDWARE <class>]): a board in lockstep with its host, over semihosting and over a serial
+#   [TIMED_HARDWARE <class>] [INTERRUPTS <number>]): a board in lockstep with its host, over semihosting and over a serial
 # line, and on its own timer. The classes are in <f>/board.hpp.
 function(sonoglide_emulated_board name)
   set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
-  cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD;TIMED_HARDWARE" "" ${ARGN})
+  cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD;TIMED_HARDWARE;INTERRUPTS" "" ${ARGN})
+  sonoglide_interrupts("${BOARD_INTERRUPTS}")
   if(NOT BOARD_MEMORY)
     set(BOARD_MEMORY memory.ld)
   endif()
@@ -171,10 +182,11 @@ function(sonoglide_emulated_board name)
     set(interrupted_main tests/boards/interrupted_unit.cpp)
     set(replayed_main tests/boards/replayed_run.cpp)
     set(hung_main tests/boards/hung_service.cpp)
+    set(vectored_main tests/boards/vectored_start.cpp)
     if(EXISTS "${PROJECT_SOURCE_DIR}/${exception_main}")
       list(APPEND timed_images exception begun replayed)
       if(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
-        list(APPEND timed_images interrupted hung)
+        list(APPEND timed_images interrupted hung vectored)
       endif()
     endif()
     foreach(image IN LISTS timed_images)
@@ -214,19 +226,20 @@ if(CMAKE_CROSSCOMPILING)
 
   sonoglide_board(template FOLDER hal/template CLASS template_board::Board)
   sonoglide_carrier_board(pico FOLDER hal/pico CHIP rp2040 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard)
-  sonoglide_carrier_board(pico2 FOLDER hal/pico CHIP rp2350 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard)
+  sonoglide_carrier_board(pico2 FOLDER hal/pico CHIP rp2350 HARDWARE pico::Hardware SERIAL_BOARD pico::SerialBoard
+    INTERRUPTS 52)
   sonoglide_carrier_board(nucleo-g474re FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware
-    SERIAL_BOARD nucleo_g474re::SerialBoard ENCODER)
+    SERIAL_BOARD nucleo_g474re::SerialBoard INTERRUPTS 102 ENCODER)
   sonoglide_emulated_board(microbit FOLDER hal/microbit
     SERIAL_BOARD microbit::SerialBoard TIMED_HARDWARE microbit::TimedHardware)
   foreach(board mps2-an385 mps2-an386 mps2-an500)
     sonoglide_emulated_board(${board} FOLDER hal/mps2
-      SERIAL_BOARD mps2::An385SerialBoard TIMED_HARDWARE mps2::An385TimedHardware)
+      SERIAL_BOARD mps2::An385SerialBoard TIMED_HARDWARE mps2::An385TimedHardware INTERRUPTS 32)
   endforeach()
   sonoglide_emulated_board(mps2-an505 FOLDER hal/mps2 MEMORY an505_memory.ld
-    SERIAL_BOARD mps2::An505SerialBoard TIMED_HARDWARE mps2::An505TimedHardware)
+    SERIAL_BOARD mps2::An505SerialBoard TIMED_HARDWARE mps2::An505TimedHardware INTERRUPTS 124)
   sonoglide_emulated_board(netduinoplus2 FOLDER hal/netduinoplus2
-    SERIAL_BOARD netduinoplus2::SerialBoard TIMED_HARDWARE netduinoplus2::TimedHardware)
+    SERIAL_BOARD netduinoplus2::SerialBoard TIMED_HARDWARE netduinoplus2::TimedHardware INTERRUPTS 82)
   sonoglide_emulated_board(riscv32-virt FOLDER hal/riscv_virt
     SERIAL_BOARD riscv_virt::SerialBoard TIMED_HARDWARE riscv_virt::TimedHardware)
 

@@ -7,7 +7,8 @@ endif()
 add_library(sonoglide::start INTERFACE IMPORTED)
 target_sources(sonoglide::start INTERFACE
   "${sonoglide_DATA_FOLDER}/hal/start/fill_memory.cpp"
-  "${sonoglide_DATA_FOLDER}/hal/$<IF:$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},arm>,cortex_m,riscv>/start.cpp")
+  "${sonoglide_DATA_FOLDER}/hal/$<IF:$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},arm>,cortex_m,riscv>/start.cpp"
+  $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},arm>:${sonoglide_DATA_FOLDER}/hal/cortex_m/vectors.cpp>)
 target_compile_features(sonoglide::start INTERFACE cxx_std_17)
 target_include_directories(sonoglide::start INTERFACE "${sonoglide_DATA_FOLDER}")
 # The script of a board includes hal/start/sections.ld.

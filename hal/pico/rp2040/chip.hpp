@@ -17,7 +17,6 @@ inline constexpr std::uint32_t system_oscillator_hz = 1320000000;  ///< 750 to 1
 /// From the same crystal: eight conversions of 100 clocks in a carrier period of 60 kHz.
 inline constexpr std::uint32_t converter_hz = 48000000;
 
-inline constexpr std::size_t interrupts = 32;
 inline constexpr std::size_t carrier_interrupt = 4;
 
 /// Clocks registers between those of the peripherals and of the converter.
