@@ -9,7 +9,7 @@
 
 #include "firmware/encoding/decimal.hpp"
 #include "hal/cortex_m/interrupts.hpp"
-#include "hal/exception/kept_exception.hpp"
+#include "hal/kept_exception.hpp"
 
 namespace {
 
@@ -54,9 +54,8 @@ extern "C" void take_interrupt_31() {
 
 int main() {
   Hardware::ByteLink bytes;
-  sonoglide::hal::KeptException kept{};
-  if (sonoglide::hal::take_kept_exception(kept)) {
-    send(bytes, kept.exception, '\n');
+  if (const auto* const kept = sonoglide::hal::take_kept_exception()) {
+    send(bytes, kept->exception, '\n');
     return 0;
   }
   cortex_m::enable_interrupt(5, 0x80);
