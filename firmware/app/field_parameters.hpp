@@ -265,7 +265,7 @@ class FieldDesign {
   static constexpr std::uint32_t lowest_gain =
       reads_force ? one_in_millionths / 2 : one_in_millionths;
   static constexpr std::uint32_t highest_gain =
-      reads_force ? 2 * one_in_millionths : one_in_millionths;
+      reads_force ? 3 * one_in_millionths / 2 : one_in_millionths;
   static constexpr std::uint32_t target_base = PartsT::Target::base;
   static constexpr std::uint32_t longest_timeout_ms = 60'000;
   static constexpr std::uint32_t longest_save_ms = 10'000;

@@ -19,16 +19,17 @@ struct NoForceCalibration {
 /// Force = gain (reading - offset), in codes of full scale 2^31.
 ///
 /// State: the gain less 1 has 16 fraction bits, the offset times the gain is a code. The upper 16 bits of the
-/// reading are multiplied, so that a product has 32 bits. Overflow: the code is limited to -2^31 ... 2^31 - 1, and
-/// the sample is then at the rail. Error of a code that is not limited, against the real numbers offset and
-/// gain, of full scale: 2^-15 |gain - 1| of the bits that are not multiplied, 2^-17 |force / gain| of the gain,
-/// 2^-23 of the offset; at most 4.1e-5 together. Offset 0 and gain 1 change no bit.
+/// reading are multiplied, so that the product has 32 bits, and so has the whole correction. Overflow: the code
+/// is limited to -2^31 ... 2^31 - 1, and the sample is then at the rail. Error of a code that is not limited,
+/// against the real numbers offset and gain, of full scale: 2^-15 |gain - 1| of the bits that are not multiplied,
+/// 2^-17 |force / gain| of the gain, 2^-23 of the offset; at most 2.5e-5 together. Offset 0 and gain 1 change no
+/// bit.
 class ForceCalibration {
  public:
   constexpr ForceCalibration() = default;
 
   /// @param offset  millionths of full scale, two's complement, -250000 ... 250000
-  /// @param gain    millionths, 500000 ... 2000000
+  /// @param gain    millionths, 500000 ... 1500000
   static constexpr ForceCalibration of(std::uint32_t offset, std::uint32_t gain) {
     ForceCalibration result;
     // 2^10 / 15625 = 2^16 / 10^6.
@@ -44,12 +45,11 @@ class ForceCalibration {
   /// In place of the reading.
   constexpr void apply(hal::Sample& sample) const {
     const std::int32_t reading = sample.friction_force;
-    const std::int64_t force = std::int64_t{reading} + excess(reading) - shift_;
-    const auto code = static_cast<std::int32_t>(force);
-    const auto above = static_cast<std::int32_t>(force >> 32);
-    const bool beyond = above != code >> 31;
-    sample.friction_force = beyond ? (above >> 31) ^ INT32_MAX : code;
-    sample.force_at_rail = sample.force_at_rail || beyond;
+    const std::int32_t correction = excess(reading) - shift_;
+    if (__builtin_add_overflow(reading, correction, &sample.friction_force)) {
+      sample.friction_force = reading < 0 ? INT32_MIN : INT32_MAX;
+      sample.force_at_rail = true;
+    }
   }
 
  private:
@@ -58,7 +58,7 @@ class ForceCalibration {
   /// (gain - 1) code
   constexpr std::int32_t excess(std::int32_t code) const { return (code >> 16) * gain_less_one_; }
 
-  std::int32_t gain_less_one_ = 0;  ///< -2^15 ... 2^16
+  std::int32_t gain_less_one_ = 0;  ///< -2^15 ... 2^15
   std::int32_t shift_ = 0;          ///< gain times offset
 };
 

@@ -491,7 +491,7 @@ TEST_F(ConsoleTest, ReadsAndWritesParametersByName) {
   EXPECT_EQ(all[3], "friction_force 0.02, compiled in 0.02; allowed is 0.00003908 to 0.04 N");
   EXPECT_EQ(all[7], "host_timeout 0, compiled in 0; allowed is 0 to 60 s");
   EXPECT_EQ(all[9], "force_offset 0, compiled in 0; allowed is -0.01 to 0.01 N");
-  EXPECT_EQ(all[10], "force_gain 1, compiled in 1; allowed is 0.5 to 2");
+  EXPECT_EQ(all[10], "force_gain 1, compiled in 1; allowed is 0.5 to 1.5");
   EXPECT_EQ(line_of("set force_offset -0.0012"), "force_offset -0.0012 N, saved");
   EXPECT_EQ(line_of("set drive_limit 0.8"), "drive_limit 0.8, saved");
   EXPECT_EQ(ask("params drive_limit"),
