@@ -320,6 +320,17 @@ TEST(LinkServiceTest, ParametersNeedAStopAndAreKeptOverAReset) {
   EXPECT_NEAR(numeric::from_code<double>(powered.board.latest_drive().amplitude), 0.12, 1e-7);
 }
 
+TEST(LinkServiceTest, TheAnswerToAWriteBearsItsParameterAndValue) {
+  SimulatedFlash flash;
+  PoweredUnit powered(flash);
+  for (std::uint8_t i = 0; i < parameter_count; ++i) {
+    const std::uint32_t value = field_design.range(i).highest;
+    const auto written = powered.ask<link::ParameterWritten>(link::WriteParameter{i, value});
+    EXPECT_EQ(written.parameter, i);
+    EXPECT_EQ(written.value, value) << int{i};
+  }
+}
+
 TEST(LinkServiceTest, AWrittenParameterIsInForceFromTheNextRestart) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);

@@ -125,6 +125,20 @@ TEST(FrameTest, IsLaidOutAsDocumented) {
   EXPECT_EQ(decoder.checksum(), checksum);
 }
 
+TEST(FrameEncoder, HasNothingForTheWireUntilAFrameIsWhole) {
+  FrameEncoder encoder;
+  EXPECT_FALSE(encoder.busy());
+  EXPECT_EQ(encoder.wire().size, 0U);
+  for (int frame = 0; frame < 2; ++frame) {
+    encoder.begin(frame_of(SetTarget{450000}, 7));
+    while (encoder.busy()) {
+      ASSERT_EQ(encoder.wire().size, 0U) << frame;
+      encoder.proceed();
+    }
+    EXPECT_EQ(encoder.wire().size, wire_of(frame_of(SetTarget{450000}, 7)).size()) << frame;
+  }
+}
+
 /// Every pair of bits of a frame on the wire, its delimiters included, and every bit alone.
 void expect_bit_errors_are_caught(const Frame& frame) {
   Bytes wire = wire_of(frame);

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sonoglide::link::messages_test {
 namespace {
@@ -243,6 +245,44 @@ TEST(MessageBytes, ReasonsHaveTheNumbersOfTheReference) {
   int number = 0;
   for (const Reason reason : reasons) {
     EXPECT_EQ(static_cast<int>(reason), ++number);
+  }
+}
+
+/// The codes, each as a number.
+template <class... Codes>
+std::vector<int> numbers(Codes... codes) {
+  return {static_cast<int>(codes)...};
+}
+
+TEST(MessageBytes, CodesHaveTheNumbersOfTheReference) {
+  const std::vector<int> from_zero{0, 1, 2, 3, 4, 5};
+  EXPECT_EQ(numbers(Quantity::friction_force, Quantity::sliding_velocity, Quantity::amplitude,
+                    Quantity::target, Quantity::bias, Quantity::step),
+            from_zero);
+  EXPECT_EQ(numbers(ScaleUnit::none, ScaleUnit::ratio, ScaleUnit::newton,
+                    ScaleUnit::metre_per_second, ScaleUnit::volt, ScaleUnit::second),
+            from_zero);
+  EXPECT_EQ(numbers(Channel::friction_force, Channel::sliding_velocity, Channel::amplitude,
+                    Channel::commanded_ratio, Channel::target, Channel::codes),
+            from_zero);
+  EXPECT_EQ(all_channels, 0x3FU);
+  EXPECT_EQ(numbers(Trigger::now, Trigger::fault, Trigger::target), (std::vector<int>{1, 2, 4}));
+  EXPECT_EQ(all_triggers, 7);
+  EXPECT_EQ(
+      numbers(TracePhase::empty, TracePhase::waiting, TracePhase::recording, TracePhase::whole),
+      (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(numbers(TraceExtra::none, TraceExtra::bias, TraceExtra::frequency),
+            (std::vector<int>{0, 1, 2}));
+}
+
+// A doubled reading is answered anew; a doubled request that changes the unit must not act again.
+TEST(MessageKinds, OnlyThoseThatReadAreReadings) {
+  const std::vector<int> readings =
+      numbers(ReadTelemetry::kind, ReadParameter::kind, ReadFault::kind, ReadIdentity::kind,
+              ReadTraceState::kind, ReadTraceRecord::kind, ReadScale::kind);
+  for (int kind = 0; kind <= 0xFF; ++kind) {
+    const bool reads = std::find(readings.begin(), readings.end(), kind) != readings.end();
+    EXPECT_EQ(is_reading(static_cast<std::uint8_t>(kind)), reads) << kind;
   }
 }
 

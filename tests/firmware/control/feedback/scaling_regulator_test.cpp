@@ -97,6 +97,35 @@ TYPED_TEST(ScalingRegulatorTest, ARestartForgetsTheFactorAndNoDriveLearnsNone) {
   EXPECT_EQ(numeric::to_real(regulator.scaled(scaled<TypeParam>(0.25))), 0.25);
 }
 
+// Where the drive is zero at the target or at what was commanded for it, their quotient says nothing.
+TYPED_TEST(ScalingRegulatorTest, NoDriveAtEitherRatioLearnsNoFactor) {
+  for (const bool at_target : {true, false}) {
+    auto regulator = this->regulator(true, 0.3);
+    this->settle(regulator, 0.3, 1.25);
+    regulator.target_changes(scaled<TypeParam>(-0.1));
+    regulator.learn_scale([at_target](TypeParam ratio) {
+      const bool is_target = std::abs(numeric::to_real(ratio) - 0.3) < 0.01;
+      return scaled<TypeParam>(is_target == at_target ? 0.0 : 0.4);
+    });
+    EXPECT_EQ(numeric::to_real(regulator.scaled(scaled<TypeParam>(0.25))), 0.25) << at_target;
+  }
+}
+
+TYPED_TEST(ScalingRegulatorTest, LearnsTheFactorOnlyWithANewTarget) {
+  auto regulator = this->regulator(true, 0.3);
+  const auto factor = [&regulator] {
+    return numeric::to_real(regulator.scaled(scaled<TypeParam>(0.25))) / 0.25;
+  };
+  this->settle(regulator, 0.3, 1.25);
+  EXPECT_EQ(factor(), 1.0);
+  regulator.target_changes(scaled<TypeParam>(-0.1));
+  this->period(regulator, 0.2, 0.3, 1.25);
+  const double learnt = factor();
+  EXPECT_NEAR(learnt, 1.25, 1e-3);
+  this->settle(regulator, 0.2, 1.5);
+  EXPECT_EQ(factor(), learnt);
+}
+
 TYPED_TEST(ScalingRegulatorTest, ItsFactorStaysWithinTwo) {
   auto regulator = this->regulator(true, 0.3);
   for (int i = 0; i < 8; ++i) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <random>
 #include <vector>
@@ -31,6 +32,7 @@ struct Nominal {
   double gain = 1.0;     ///< believed over true force of the drive
   double noise = 0.0;
   double step = 0.0;  ///< of the frequency word, relative; 0: none
+  int delay = 1;      ///< periods from the end of the sampled one until its command acts
 };
 
 template <class S>
@@ -39,15 +41,15 @@ numeric::Split<S> split(double value) {
   return {scaled<S>(parts.mantissa), parts.exponent};
 }
 
-template <class S, class Current>
-using Vibration = ResonantVibration<S, 1, Current>;
+template <class S, class Current, int MaxDelay = 1>
+using Vibration = ResonantVibration<S, MaxDelay, Current>;
 
-template <class S, class Current>
-typename Vibration<S, Current>::Parameters parameters(const Nominal& nominal) {
+template <class S, class Current, int MaxDelay = 1>
+typename Vibration<S, Current, MaxDelay>::Parameters parameters(const Nominal& nominal) {
   const double rate = tests::pi / nominal.quality * nominal.gain;
   const double step = nominal.step > 0.0 ? nominal.step : 0x1p-28;
   const bool coarse = step * nominal.quality * nominal.quality > 0.25;
-  typename Vibration<S, Current>::Parameters all{};
+  typename Vibration<S, Current, MaxDelay>::Parameters all{};
   all.resonance = {split<S>(rate),
                    scaled<S>(1.0 / nominal.gain / 16.0),
                    scaled<S>(8.0 * nominal.natural),
@@ -67,22 +69,24 @@ typename Vibration<S, Current>::Parameters parameters(const Nominal& nominal) {
   all.phase_gain = scaled<S>(coarse ? 0.0 : 8.0 / tests::two_pi / 16.0);
   all.settled = scaled<S>(4.0 * nominal.noise);
   all.missing = scaled<S>(0.25 * rate);
-  all.delay = 1;
+  all.delay = static_cast<std::uint8_t>(nominal.delay);
   return all;
 }
 
-/// Loop and resonator; a command acts one period after the end of the sampled one.
-template <class S, class Current = FullCurrent<S>>
+/// Loop and resonator.
+template <class S, class Current = FullCurrent<S>, int MaxDelay = 1>
 class Bench {
+  using Loop = Vibration<S, Current, MaxDelay>;
+
  public:
   Bench(const Nominal& nominal, const Resonator& resonator)
-      : Bench(nominal, resonator, parameters<S, Current>(nominal)) {}
-  Bench(const Nominal& nominal, const Resonator& resonator,
-        const typename Vibration<S, Current>::Parameters& all)
+      : Bench(nominal, resonator, parameters<S, Current, MaxDelay>(nominal)) {}
+  Bench(const Nominal& nominal, const Resonator& resonator, const typename Loop::Parameters& all)
       : nominal_(nominal),
         step_(nominal.step > 0.0 ? nominal.step : 0x1p-28),
         loop_(all),
-        plant_(resonator) {}
+        plant_(resonator),
+        coming_(static_cast<std::size_t>(nominal.delay)) {}
 
   /// One carrier period.
   /// @return the amplitude of its vibration
@@ -95,16 +99,17 @@ class Bench {
       const double in_phase = normal_(random_);
       read += nominal_.noise * Complex(in_phase, quadrature);
     }
-    typename Vibration<S, Current>::Measurement measurement{};
+    typename Loop::Measurement measurement{};
     measurement.in_phase = reading(read.real());
     measurement.quadrature = reading(read.imag());
     fault = fault == Fault::none ? loop_.observe(measurement) : fault;
     const auto [amplitude, named] = loop_.drive(scaled<S>(wanted), NoShaping<S>({}), S{});
     limit = named;
-    acting_ = coming_;
     ResonantCommand<S> command{{amplitude, {}, {}, {}, {}, {}}};
     loop_.after(command);
-    coming_ = {numeric::to_real(amplitude), command.frequency};
+    coming_.push_back({numeric::to_real(amplitude), command.frequency});
+    acting_ = coming_.front();
+    coming_.pop_front();
     ++periods;
     return std::abs(z);
   }
@@ -133,10 +138,10 @@ class Bench {
 
   Nominal nominal_;
   double step_;
-  Vibration<S, Current> loop_;
+  Loop loop_;
   Resonator plant_;
   Command acting_;
-  Command coming_;
+  std::deque<Command> coming_;
   std::mt19937_64 random_{7};
   std::normal_distribution<double> normal_;
 };
@@ -184,6 +189,20 @@ TYPED_TEST(ResonantVibrationOf, RingsUpWithinFourPeriodsOfTheTimeOptimalBound) {
       EXPECT_LE(found.beyond, 0.02);
       EXPECT_EQ(bench.fault, Fault::none);
     }
+  }
+}
+
+// Until the first command acts, and at the target: each period of delay costs one.
+TYPED_TEST(ResonantVibrationOf, AnyDelayCostsItsPeriods) {
+  for (const int delay : {0, 1, 2, 3}) {
+    Nominal nominal;
+    nominal.delay = delay;
+    Bench<TypeParam, FullCurrent<TypeParam>, 3> bench(nominal, {nominal.quality, 60e3});
+    const double bound = bound_s(nominal.quality, 60e3, 0.0, 1.0 / 3.0);
+    const Settled found = settle(bench, 1.0 / 3.0, 4.0 * bound + 2e-3);
+    EXPECT_LE(found.at_s, bound + (3.0 + delay) / 60e3) << delay;
+    EXPECT_LE(found.beyond, 0.02) << delay;
+    EXPECT_EQ(bench.fault, Fault::none) << delay;
   }
 }
 
