@@ -1,5 +1,5 @@
-// The image of one scene's controller on a board that keeps its own time, with a link to its host
-// on the serial line; both are chosen when the image is built.
+// The unit of one scene on a board that keeps its own time, with a link to its host; both are chosen when the image
+// is built.
 #include SONOGLIDE_BOARD_HEADER
 
 #include <cstdint>
@@ -24,24 +24,33 @@ using Hardware = SONOGLIDE_BOARD_CLASS;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
 
-static_assert(!configuration::Parts::Vibration::observed,
-              "an emulated board has no vibration for sensor.vibration; a board of a product fills "
-              "hal::VibrationSample");
+using Controller = sonoglide::control::Controller<configuration::Parts>;
+using Answer = app::DriveOf<Controller>;
 
-static_assert(!std::is_same_v<app::DriveOf<sonoglide::control::Controller<configuration::Parts>>,
-                              sonoglide::hal::BiasedDrive>,
-              "an emulated board has no output for a bias: leave out drive.bias_limit_N");
+/// Whether the board takes an answer as it is: one with a bias would pass for a plain one, without it.
+template <class Board, class = void>
+constexpr bool takes_answer = false;
+template <class Board>
+constexpr bool takes_answer<
+    Board, std::void_t<decltype(static_cast<void (Board::*)(const Answer&)>(&Board::drive))>> =
+    true;
+
+constexpr bool serves =
+    sonoglide::hal::keeps_periods<Hardware::Board, app::SampleOf<Controller>, Answer> &&
+    takes_answer<Hardware::Board>;
+static_assert(serves || !configuration::Parts::Vibration::observed,
+              "this board has no vibration for sensor.vibration: it would fill "
+              "hal::VibrationSample and take hal::ResonantDrive");
+static_assert(serves || !std::is_same_v<Answer, sonoglide::hal::BiasedDrive>,
+              "this board has no output for a bias: leave out drive.bias_limit_N");
 
 /// Of the loop; the carrier is derived from the same clock.
 constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
     configuration::carrier_period_s, configuration::every_periods);
 
-/// The time of an emulator is not that of the host: none would be a silence.
-constexpr std::uint32_t timeout_ms = 0;
-
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
-    configuration::design, configuration::full_scales, period_s, timeout_ms);
+    configuration::design, configuration::full_scales, period_s, Hardware::host_timeout_ms);
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
@@ -59,6 +68,24 @@ constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
 static_assert(1.0 <= period_ticks && period_ticks <= Hardware::Board::most_period_ticks,
               "the timer of this board cannot make drive.frequency_Hz");
 
+/// A board that makes a carrier has to know how many periods of it are in one of the loop.
+constexpr bool takes_every_periods =
+    std::is_constructible_v<Hardware::Board, std::uint32_t, unsigned>;
+static_assert(configuration::every_periods == 1 || Hardware::least_periods > 1 ||
+                  takes_every_periods,
+              "this board takes a sample in every carrier period: leave out "
+              "controller.every_periods, or let its constructor take them");
+
+template <class Board>
+Board make_board() {
+  constexpr auto ticks = static_cast<std::uint32_t>(period_ticks);
+  if constexpr (takes_every_periods) {
+    return Board(ticks, configuration::every_periods);
+  } else {
+    return Board(ticks);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -70,7 +97,7 @@ int main() {
   app::LinkService<Unit, Hardware::ByteLink,
                    sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>
       service(unit, bytes);
-  Hardware::Board board(static_cast<std::uint32_t>(period_ticks));
+  auto board = make_board<Hardware::Board>();
   app::TimedLoop loop(unit.supervisor(), board, watchdog, service);
   while (loop.serve()) {
   }

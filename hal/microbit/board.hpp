@@ -71,6 +71,7 @@ class Flash {
 struct TimedHardware {
   /// 16 MHz leave 266 clocks for each carrier period; software floating point takes thousands.
   static constexpr unsigned least_periods = 128;
+  static constexpr std::uint32_t host_timeout_ms = 0;
   using ByteLink = Uart;  ///< first: it starts the crystal
   using Board = timed::Board<Timer>;
   using Watchdog = microbit::Watchdog;

@@ -133,6 +133,7 @@ struct TimedHardware {
   static constexpr std::size_t trace_records = 1024;
   /// 25 MHz leave 416 clocks for each carrier period, 20 MHz 333.
   static constexpr unsigned least_periods = 16;
+  static constexpr std::uint32_t host_timeout_ms = 0;
   using ByteLink = Uart<ClockHz>;
   using Board = timed::Board<cortex_m::ProcessorClock<ClockHz>>;
   using Watchdog = mps2::Watchdog<ClockHz, ResetCause>;

@@ -66,6 +66,7 @@ struct TimedHardware {
   static constexpr std::size_t trace_records = 1024;
   /// The internal oscillator's 16 MHz leave 266 clocks for each carrier period.
   static constexpr unsigned least_periods = 16;
+  static constexpr std::uint32_t host_timeout_ms = 0;
   using ByteLink = Uart;
   using Board = timed::Board<cortex_m::ProcessorClock<16000000>>;
   using Watchdog = netduinoplus2::Watchdog;

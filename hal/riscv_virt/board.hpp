@@ -43,6 +43,7 @@ class MachineTimer {
 struct TimedHardware {
   static constexpr std::size_t trace_records = 1024;
   static constexpr unsigned least_periods = 16;
+  static constexpr std::uint32_t host_timeout_ms = 0;
   using ByteLink = Uart;
   using Board = timed::Board<MachineTimer>;
   using Watchdog = NoWatchdog;

@@ -10,12 +10,13 @@ namespace sonoglide::hal::template_board {
 
 /// What the carrier timer and the converters that it triggers show to the processor.
 struct CarrierRegisters {
-  volatile std::uint32_t periods;      ///< drive phases 0 so far, free running
-  volatile std::uint32_t stop;         ///< not 0: the operator asks for the end
-  volatile std::uint32_t force;        ///< 0 … 4095, mean over the last carrier period
-  volatile std::uint32_t force_ready;  ///< the period that `force` belongs to, as `periods` counts
-  volatile std::uint32_t velocity;     ///< 0 … 4095
-  volatile std::uint32_t amplitude;    ///< 0 … 1023, taken over at the next drive phase 0
+  volatile std::uint32_t periods;       ///< drive phases 0 so far, free running
+  volatile std::uint32_t stop;          ///< not 0: the operator asks for the end
+  volatile std::uint32_t force;         ///< 0 … 4095, mean over the last carrier period
+  volatile std::uint32_t force_ready;   ///< the period that `force` belongs to, as `periods` counts
+  volatile std::uint32_t velocity;      ///< 0 … 4095
+  volatile std::uint32_t amplitude;     ///< 0 … 1023, taken over at the next drive phase 0
+  volatile std::uint32_t period_ticks;  ///< clocks in a carrier period
 };
 
 extern "C" CarrierRegisters carrier;  ///< address from memory.ld

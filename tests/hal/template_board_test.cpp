@@ -4,9 +4,11 @@
 #include <cstdint>
 
 #include "hal/template/board.hpp"
+#include "hal/template/unit.hpp"
 
 extern "C" {
 sonoglide::hal::template_board::CarrierRegisters carrier;
+sonoglide::hal::template_board::UartRegisters uart;
 }
 
 namespace sonoglide::hal::template_board::template_board_test {
@@ -90,6 +92,35 @@ TEST_F(TemplateBoard, StopsWithTheDriveOff) {
   Sample sample{};
   EXPECT_FALSE(board.sample(sample));
   EXPECT_EQ(carrier.amplitude, 0U);
+}
+
+TEST_F(TemplateBoard, MakesTheCarrierPeriodOfItsUnit) {
+  UnitBoard board(1667);
+  EXPECT_EQ(carrier.period_ticks, 1667U);
+  Sample sample{};
+  finish_period(2048, 2048);
+  ASSERT_TRUE(board.sample(sample));
+  EXPECT_TRUE(sample.fresh);
+  EXPECT_EQ(board.period(), 8U);
+}
+
+TEST_F(TemplateBoard, ReceivesAndSendsWithoutWaiting) {
+  Uart line;
+  std::uint8_t byte = 7;
+  uart.received_count = 0;
+  uart.room = 0;
+  uart.sent = 0;
+  EXPECT_FALSE(line.receive(byte));
+  EXPECT_FALSE(line.send(0x5a));
+  EXPECT_EQ(byte, 7);
+  EXPECT_EQ(uart.sent, 0U);
+  uart.received = 0xa5;
+  uart.received_count = 1;
+  uart.room = 1;
+  EXPECT_TRUE(line.receive(byte));
+  EXPECT_TRUE(line.send(0x5a));
+  EXPECT_EQ(byte, 0xa5);
+  EXPECT_EQ(uart.sent, 0x5aU);
 }
 
 }  // namespace

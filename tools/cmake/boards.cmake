@@ -11,7 +11,6 @@
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
-sonoglide_room(sonoglide_timed hal/timed USES sonoglide_hal)
 sonoglide_room(sonoglide_carrier_image firmware/image/carrier USES sonoglide_control)
 sonoglide_room(sonoglide_image_plant firmware/image/plant
   USES sonoglide_strang sonoglide_hal sonoglide_start)

@@ -59,10 +59,12 @@ endfunction()
 function(sonoglide_install_data)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/tools/toolchains"
     DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT core)
-  foreach(folder start cortex_m riscv template)
+  foreach(folder start exception cortex_m riscv template)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/hal/${folder}"
       DESTINATION "${SONOGLIDE_DATA_FOLDER}/hal" COMPONENT core)
   endforeach()
+  install(FILES "${PROJECT_SOURCE_DIR}/firmware/image/timed_unit.cpp"
+    DESTINATION "${SONOGLIDE_DATA_FOLDER}/firmware/image" COMPONENT core)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${SONOGLIDE_DATA_FOLDER}" COMPONENT core)
 
   install(CODE "set(SCENES \"${PROJECT_SOURCE_DIR}/host_sim/scenes\")

@@ -2,7 +2,8 @@
 # configures, beside it. Then nothing in the package is a link or names the source tree.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
-file(REMOVE_RECURSE "${FOLDER}/installed" "${FOLDER}/prefix" "${FOLDER}/stranger" "${FOLDER}/above")
+file(REMOVE_RECURSE "${FOLDER}/installed" "${FOLDER}/prefix" "${FOLDER}/stranger" "${FOLDER}/above"
+  "${FOLDER}/own_board")
 foreach(component core documents program)
   run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${FOLDER}/installed" --component ${component})
 endforeach()
@@ -10,10 +11,13 @@ file(RENAME "${FOLDER}/installed" "${FOLDER}/prefix")
 set(data "${FOLDER}/prefix/share/sonoglide")
 
 file(COPY "${CMAKE_CURRENT_LIST_DIR}/stranger" "${CMAKE_CURRENT_LIST_DIR}/above"
+    "${CMAKE_CURRENT_LIST_DIR}/own_board"
   DESTINATION "${FOLDER}")
-file(COPY "${data}/hal/template" DESTINATION "${FOLDER}/stranger/hal")
-run("${FOLDER}/prefix/bin/sonoglide" configure "${data}/scenes/target_step.toml"
-  --out "${FOLDER}/stranger/controller")
+foreach(project stranger own_board)
+  file(COPY "${data}/hal/template" DESTINATION "${FOLDER}/${project}/hal")
+  run("${FOLDER}/prefix/bin/sonoglide" configure "${data}/scenes/target_step.toml"
+    --out "${FOLDER}/${project}/controller")
+endforeach()
 
 # The program names the tree that it builds images from; nothing else does. A scene names the place of
 # the schema that it is judged by.

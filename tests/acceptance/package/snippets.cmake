@@ -6,6 +6,7 @@ file(READ "${SOURCE}/host_sim/systems.md" text)
 string(APPEND guide "${text}")
 set(tested "")
 foreach(file stranger/CMakeLists.txt stranger/product.hpp stranger/device/main.cpp
+    own_board/CMakeLists.txt
     above/CMakeLists.txt sketch/sketch.ino ../../../zephyr/CMakeLists.txt module/CMakeLists.txt)
   file(READ "${CMAKE_CURRENT_LIST_DIR}/${file}" text)
   string(APPEND tested "${text}")

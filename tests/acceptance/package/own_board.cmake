@@ -1,0 +1,39 @@
+# Builds the unit of a board of a project's own for NAME, a toolchain file: from the package, and with the sources as a
+# subdirectory. What is missing is named.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+
+set(project "${FOLDER}/own_board")
+set(data "${FOLDER}/prefix/share/sonoglide")
+foreach(sonoglide PREFIX SOURCE)
+  set(build "${FOLDER}/build_own_board_${NAME}")
+  file(REMOVE_RECURSE "${build}")
+  if(sonoglide STREQUAL "PREFIX")
+    set(how "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix" "-DCMAKE_TOOLCHAIN_FILE=${data}/toolchains/${NAME}.cmake")
+  else()
+    set(how "-DSONOGLIDE_SOURCE=${SOURCE}" "-DCMAKE_TOOLCHAIN_FILE=${SOURCE}/tools/toolchains/${NAME}.cmake")
+  endif()
+  run("${CMAKE_COMMAND}" -G Ninja -S "${project}" -B "${build}" ${how})
+  run("${CMAKE_COMMAND}" --build "${build}")
+  expect("${output}" HAS "controller_unit.elf")
+endforeach()
+
+# refused(<from> <to> <message>): the project with a change.
+function(refused from to reason)
+  set(spoilt "${FOLDER}/spoilt_own_board_${NAME}")
+  file(REMOVE_RECURSE "${spoilt}")
+  file(READ "${project}/CMakeLists.txt" text)
+  string(REPLACE "${from}" "${to}" text "${text}")
+  file(WRITE "${spoilt}/CMakeLists.txt" "${text}")
+  execute_process(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${spoilt}" -B "${spoilt}/build"
+      "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix" "-DCMAKE_TOOLCHAIN_FILE=${data}/toolchains/${NAME}.cmake"
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(result EQUAL 0)
+    message(FATAL_ERROR "${to} in place of ${from} is not refused")
+  endif()
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  expect("${output}" HAS "${reason}")
+endfunction()
+
+refused("  CONTROLLERS controller" "" "sonoglide_timed_board(product): CONTROLLERS is missing")
+refused("MEMORY hal" "MEMROY hal" "sonoglide_timed_board(product): unknown: MEMROY;hal/template/memory.ld; there are HEADER")
+refused("controller)" "elsewhere)" "elsewhere has no controller_configuration.hpp: sonoglide configure SCENE --out")
