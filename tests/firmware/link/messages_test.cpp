@@ -279,7 +279,7 @@ TEST(MessageBytes, CodesHaveTheNumbersOfTheReference) {
 TEST(MessageKinds, OnlyThoseThatReadAreReadings) {
   const std::vector<int> readings =
       numbers(ReadTelemetry::kind, ReadParameter::kind, ReadFault::kind, ReadIdentity::kind,
-              ReadTraceState::kind, ReadTraceRecord::kind, ReadScale::kind);
+              ReadTraceState::kind, ReadTraceRecord::kind, ReadScale::kind, ReadException::kind);
   for (int kind = 0; kind <= 0xFF; ++kind) {
     const bool reads = std::find(readings.begin(), readings.end(), kind) != readings.end();
     EXPECT_EQ(is_reading(static_cast<std::uint8_t>(kind)), reads) << kind;
