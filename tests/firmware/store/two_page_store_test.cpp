@@ -179,6 +179,18 @@ TEST(TwoPageStoreTest, ASaveThatIsGivenUpLeavesTheOldRecordAndTheNextSaveIsWhole
   }
 }
 
+TEST(TwoPageStoreTest, WhileARecordIsBeingSavedAnotherIsNotTaken) {
+  app::SimulatedFlash flash;
+  Store store(flash, design);
+  store.load();
+  store.save(record(values(20)));
+  while (store.proceed() == Saving::busy) {
+    store.save(record(values(30)));
+  }
+  EXPECT_EQ(store.proceed(), Saving::idle);
+  EXPECT_EQ(loaded(flash).values, values(20));
+}
+
 TEST(TwoPageStoreTest, SequenceNumbersWrap) {
   app::SimulatedFlash flash;
   save(flash, values(0));
@@ -287,6 +299,14 @@ TEST(TwoPageStoreTest, WhatIsNotWholeIsReported) {
   const Loaded found = loaded(flash);
   EXPECT_EQ(found.origin, Origin::damaged);
   EXPECT_EQ(found.values, compiled_in);
+}
+
+TEST(TwoPageStoreTest, OfTwoPagesWithoutARecordEitherMayBeTheDamagedOne) {
+  for (const std::size_t page : {0U, 1U}) {
+    app::SimulatedFlash flash;
+    flash.page(page)[app::SimulatedFlash::page_words - 1] ^= 1U;
+    EXPECT_EQ(loaded(flash).origin, Origin::damaged) << page;
+  }
 }
 
 // The older record may be the looser one: it is not `stored`.
