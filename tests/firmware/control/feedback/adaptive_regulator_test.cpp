@@ -144,6 +144,21 @@ std::vector<double> steep_loop(Regulator regulator, double steepness) {
   return ratios;
 }
 
+TYPED_TEST(AdaptiveRegulatorTest, IsLikeNewAfterARestart) {
+  auto regulator = this->regulator();
+  for (int i = 0; i < 40; ++i) {
+    this->meet(regulator, i % 2 == 0 ? -0.01 : 0.01);
+  }
+  EXPECT_EQ(regulator.gain(), scaled<TypeParam>(least_gain));
+  regulator.restart(scaled<TypeParam>(this->target));
+  EXPECT_EQ(regulator.gain(), scaled<TypeParam>(gain));
+  for (int i = 0; i < 4; ++i) {
+    this->meet(regulator, 0.0);  // held
+  }
+  this->meet(regulator, -0.01);  // the error before was above 0, but of another run
+  EXPECT_EQ(regulator.gain(), scaled<TypeParam>(gain));
+}
+
 TYPED_TEST(AdaptiveRegulatorTest, SettlesWhereThePlantIsTooSteepForTheWholeGain) {
   using Own = AdaptiveRegulatorTest<TypeParam>;
   // An integrator I' = I - g I of D periods before oscillates from a gain of 2 sin(pi/(4 D + 2)) on.
