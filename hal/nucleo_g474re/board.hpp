@@ -65,8 +65,8 @@ extern "C" void take_carrier();
 /// (PA0), the sliding velocity (PA1) and the vibration velocity (PB0). The DMA carries them to RAM, in two blocks,
 /// so that they stay there for a period. A converter tells by itself of a conversion at an end of its range.
 ///
-/// While PA6 is low, or after the chip found a fault of its own, both legs are low and no sample is fresh. The
-/// legs may be driven again once the controller has answered with an amplitude of 0.
+/// While PA6 is low, or after the chip found a fault of its own, both legs are low and no sample is fresh, and
+/// tripped() says so. The legs may be driven again once the controller has answered with an amplitude of 0.
 class Board {
  public:
   static constexpr bool computes_floating_point = true;
@@ -132,6 +132,16 @@ class Board {
     carrier_timer.reload = half_period_;
     sampling_timer.reload = clocks_between_conversions(half_period_) - 1;
     put(drive.amplitude, half_period_);
+  }
+
+  /// Since it was asked last, or still: 1 the line at PA6, 2 a fault of the chip, which lasts until a reset.
+  static std::uint8_t tripped() {
+    const std::uint32_t causes = carrier_timer.status & (broken_by_line | broken_by_chip);
+    if (causes == 0) {
+      return 0;
+    }
+    carrier_timer.status = ~causes;
+    return (causes & broken_by_chip) != 0 ? 2 : 1;
   }
 
   std::uint32_t period() const {

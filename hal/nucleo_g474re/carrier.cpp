@@ -152,7 +152,7 @@ Board::Board(std::uint32_t period_ticks)
   start_conversions();
   sampling_timer.slave_mode = set_back_and_started;
 
-  carrier_timer.status = ~update_event;
+  carrier_timer.status = 0;  // of a break too, which a line that was not its pin yet has made
   carrier_timer.control_1 = counting | up_and_down | reload_at_update;
   while ((carrier_timer.status & update_event) == 0) {
   }

@@ -87,6 +87,9 @@ extern TimerRegisters encoder_timer;   ///< TIM5
 }
 
 inline constexpr std::uint32_t update_event = 1U << 0;  ///< of a timer's status
+/// Likewise: its legs were made low by its line, or by a fault of the chip. Neither can be cleared while that lasts.
+inline constexpr std::uint32_t broken_by_line = 1U << 7;
+inline constexpr std::uint32_t broken_by_chip = 1U << 13;
 
 /// The outputs of the carrier are low by the timer while the break input, or a fault that the chip finds,
 /// holds them; what else is in this register stays as it is.

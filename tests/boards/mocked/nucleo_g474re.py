@@ -26,6 +26,7 @@ PORT_A, PORT_B, PORT_C = 0x48000000, 0x48000400, 0x48000800
 CONVERTERS = {"force": 0x50000000, "velocity": 0x50000100, "vibration": 0x50000400}
 PAIR = 0x50000308
 OUTPUTS_ON = 1 << 15
+BROKEN_BY_LINE, BROKEN_BY_CHIP = 1 << 7, 1 << 13
 HALF_AND_WHOLE = (2, 1)  # bits of a transfer's events, of its first and its second block
 
 
@@ -48,7 +49,7 @@ class Board(Machine):
         self.carrier_periods = 0  # since the counter runs
         self.reloaded = 0  # the period in which the watchdog was
         self.block = 0
-        self.fault = False  # the line at PA6
+        self.breaks = 0  # what holds the legs low: the line at PA6, a fault of the chip
         self.lose_conversions = False
         self.encoder = 0  # its count
         self.in_force = None  # reload and compare values of the present period
@@ -68,12 +69,12 @@ class Board(Machine):
             return value | (value & 3) << 2
         if address == CARRIER + STATUS:
             # The image waits for the first update before anybody is there to begin a period.
-            if not self.events[CARRIER] and self.running() and self.in_force is None:
+            if not self.events[CARRIER] & 1 and self.running() and self.in_force is None:
                 self.waits += 1
                 if self.waits > 2:
                     self.update()
             return self.events[CARRIER]
-        if address == CARRIER + BREAK and self.fault:
+        if address == CARRIER + BREAK and self.breaks:
             return value & ~OUTPUTS_ON
         if address == WATCHDOG:
             return value & ~0x7F | self.count()
@@ -84,6 +85,7 @@ class Board(Machine):
     def write(self, address, value):
         if address in (CARRIER + STATUS, SAMPLING + STATUS):
             self.events[address & ~0x3FF] &= value
+            self.events[CARRIER] |= self.breaks
             return
         if address == TRANSFER_CLEAR:
             self.registers[TRANSFER_EVENTS] = self.registers.get(TRANSFER_EVENTS, 0) & ~value
@@ -118,7 +120,7 @@ class Board(Machine):
             value = 0
         if address == RCC_CAUSES and value & 1 << 23:
             value = 0
-        if address == CARRIER + BREAK and self.fault:
+        if address == CARRIER + BREAK and self.breaks:
             value &= ~OUTPUTS_ON
         if address == USART + 0x28:
             self.sent.append(value)
@@ -126,9 +128,18 @@ class Board(Machine):
 
     def hold_fault(self, held):
         """The line at PA6 is low."""
-        self.fault = held
-        if held:
-            self.registers[CARRIER + BREAK] &= ~OUTPUTS_ON
+        self.breaks = BROKEN_BY_LINE if held else 0
+        self._break()
+
+    def find_fault(self):
+        """Of its own, as a parity error of its RAM: it lasts until a reset."""
+        self.breaks = BROKEN_BY_CHIP
+        self._break()
+
+    def _break(self):
+        self.events[CARRIER] |= self.breaks
+        if self.breaks:
+            self.registers[CARRIER + BREAK] = self.registers.get(CARRIER + BREAK, 0) & ~OUTPUTS_ON
 
     def running(self):
         return self.registers.get(CARRIER + CONTROL_1, 0) & 1

@@ -12,6 +12,7 @@ from machine import HARD_FAULT
 DRIVE_LIMIT = 1
 STATE_OFF, STATE_FAULT = 0, 4
 MISSING, SATURATED, STALLED, WATCHDOG_RESET = 17, 18, 34, 33
+BY_LINE, BY_CHIP = 65, 66  # external_1, external_2
 IN_MAIN = 400  # instructions between two steps
 
 board_of = importlib.import_module(sys.argv[1])
@@ -84,7 +85,7 @@ def external_fault(unit):
     unit.board.hold_fault(True)
     assert not unit.board.driven(), "the timer does not hold the legs low"
     unit.period()
-    unit.fails(MISSING)
+    unit.fails(BY_LINE)
     unit.link.ask(RESTART)
     unit.periods(50)
     assert not unit.board.driven(), "a restart overcomes the fault's line"
@@ -92,6 +93,22 @@ def external_fault(unit):
     unit.periods(50)
     assert not unit.board.driven(), "it drives again by itself"
     unit.drive()
+    unit.board.hold_fault(True)
+    unit.board.hold_fault(False)  # within a carrier period
+    unit.period()
+    unit.fails(BY_LINE)
+    unit.drive()
+
+    open_line = Unit(lambda board: board.hold_fault(True))
+    open_line.periods(2)
+    open_line.fails(BY_LINE)
+    open_line.board.hold_fault(False)
+    open_line.drive()
+    open_line.board.find_fault()
+    open_line.period()
+    open_line.fails(BY_CHIP)
+    open_line.link.ask(RESTART)
+    open_line.fails(BY_CHIP)
 
 
 def bad_conversions(unit):
