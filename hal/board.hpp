@@ -117,6 +117,10 @@ struct BiasedDrive : Drive {
 ///     bool busy() const;
 ///   };
 ///
+/// A flash may have two pages more, 2 and 3, for the history of the unit (app::UnitHistory), and says so:
+///
+///     static constexpr std::size_t pages = 4;
+///
 /// A flash may stall the processor in place of being busy, because it is erased and programmed with
 /// the drive at zero only. A watchdog is slower than an erase, or the flash makes it slower for
 /// that time. A word that a power cut spoilt may read as anything, but read() returns. A flash of
@@ -150,6 +154,12 @@ template <class Board>
 struct ReportsTrips<Board, std::void_t<decltype(std::declval<Board&>().tripped())>>
     : std::is_same<decltype(std::declval<Board&>().tripped()), std::uint8_t> {};
 
+template <class Flash, class = void>
+struct KeepsHistory : std::false_type {};
+template <class Flash>
+struct KeepsHistory<Flash, std::void_t<decltype(Flash::pages)>>
+    : std::bool_constant<Flash::pages == 4> {};
+
 }  // namespace detail
 
 /// Whether a class has the shape of a board.
@@ -164,6 +174,10 @@ inline constexpr bool keeps_periods =
 /// Whether a board counts the sliding distance.
 template <class Board>
 inline constexpr bool counts_travel = detail::CountsTravel<Board>::value;
+
+/// Whether a flash has pages for the history of a unit.
+template <class Flash>
+inline constexpr bool keeps_history = detail::KeepsHistory<Flash>::value;
 
 /// Whether a board says that its hardware has switched the drive off.
 template <class Board>

@@ -23,11 +23,13 @@ inline constexpr Version version{0, 1, 0};
 ///     static constexpr const char* board = "rail-drive-2";  // at most link::most_name_characters
 ///     static std::uint32_t serial_number();                 // 0: none was given
 ///     static inline const hal::KeptException* exception = nullptr;  // as its main took it; null: none
+///     static inline app::UnitHistory<Flash>* history = nullptr;     // set by its main
 ///   };
 struct Unnamed {
   static constexpr const char* board = "";
   static std::uint32_t serial_number() { return 0; }
   static constexpr std::nullptr_t exception = nullptr;  ///< it keeps none
+  static constexpr std::nullptr_t history = nullptr;    ///< likewise
 };
 
 /// The characters of a name, with zeros behind them; to be called at compile time, where a name that is

@@ -76,6 +76,7 @@ class LinkService {
       take(queue_[first_]);
       first_ = (first_ + 1) % most_waiting;
     }
+    requests_.serve_history();
     link::Streamed sample{};
     if (requests_.take_sample(sample, !sends())) {
       send(link::frame_of(sample));
@@ -137,6 +138,7 @@ class LinkService {
     link::Stop stop{};
     if (link::read(frame, stop)) {
       unit_.stop();
+      requests_.note_stop();
       overtake(frame.sequence);
     } else if (waiting_ < most_waiting) {
       queue_[(first_ + waiting_) % most_waiting] = {frame, decoder_.checksum(), faults_};

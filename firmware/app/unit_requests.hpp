@@ -63,6 +63,20 @@ class UnitRequests {
 
   void count_lost_frame() { ++lost_frames_; }
 
+  void note_stop() {
+    if constexpr (has_history) {
+      Product::history->note_stop();
+    }
+  }
+
+  /// In each service: the history of the unit takes its time, and a step of a save.
+  void serve_history() {
+    if constexpr (has_history) {
+      const Snapshot shown = unit_.supervisor().snapshot();
+      Product::history->serve(shown.periods, !in_hand() && !shown.driving());
+    }
+  }
+
   /// A sample of the stream.
   /// @param sample  where it goes
   /// @param free    the line is; else none is taken
@@ -80,6 +94,7 @@ class UnitRequests {
   }
 
  private:
+  static constexpr bool has_history = !std::is_null_pointer_v<decltype(Product::history)>;
   static constexpr auto trace_records =
       static_cast<std::uint16_t>(UnitT::Supervisor::Recorder::records);
 
@@ -95,7 +110,8 @@ class UnitRequests {
                        handles<link::ReadFault>(request) || handles<link::Confirm>(request) ||
                        handles<link::Hello>(request) || handles<link::ReadIdentity>(request) ||
                        handles<link::ReadScale>(request) || handles<link::Stream>(request) ||
-                       handles_trace(request) || handles_exception(request);
+                       handles_trace(request) || handles_exception(request) ||
+                       handles_history(request);
     if (!known) {
       refuse(request.kind, link::Reason::unknown_request);
     }
@@ -111,8 +127,16 @@ class UnitRequests {
   }
 
   bool handles_exception([[maybe_unused]] const link::Frame& request) {
-    if constexpr (!std::is_same_v<decltype(Product::exception), const std::nullptr_t>) {
+    if constexpr (!std::is_null_pointer_v<decltype(Product::exception)>) {
       return handles<link::ReadException>(request);
+    } else {
+      return false;
+    }
+  }
+
+  bool handles_history([[maybe_unused]] const link::Frame& request) {
+    if constexpr (has_history) {
+      return handles<link::ReadHistory>(request);
     } else {
       return false;
     }
@@ -283,15 +307,33 @@ class UnitRequests {
     }
   }
 
-  void carry_out(const link::ReadException& request) {
-    const hal::KeptException* const kept = Product::exception;
-    if (kept == nullptr) {
-      refuse(request.kind, link::Reason::no_such_fault);
+  void carry_out(const link::ReadException& /*request*/) {
+    if constexpr (has_history) {
+      const auto& history = *Product::history;
+      answer_exception(history.exception(), history[history.exceptions] > 0);
     } else {
-      answer(link::KeptException{kept->exception, kept->program_counter, kept->link_register,
-                                 kept->program_status, kept->fault_status, kept->hard_fault_status,
-                                 kept->fault_address});
+      const bool known = Product::exception != nullptr;
+      answer_exception(known ? *Product::exception : hal::KeptException{}, known);
     }
+  }
+
+  void answer_exception(const hal::KeptException& kept, bool known) {
+    if (!known) {
+      refuse(link::ReadException::kind, link::Reason::no_such_fault);
+    } else {
+      answer(link::KeptException{kept.exception, kept.program_counter, kept.link_register,
+                                 kept.program_status, kept.fault_status, kept.hard_fault_status,
+                                 kept.fault_address});
+    }
+  }
+
+  void carry_out(const link::ReadHistory& /*request*/) {
+    const auto& history = *Product::history;
+    answer(link::History{history[history.boots], history[history.seconds],
+                         history[history.watchdog_resets], history[history.exceptions],
+                         history[history.exception_boot],
+                         static_cast<std::uint8_t>(history.cause()),
+                         static_cast<std::uint8_t>(history.saved() ? 1 : 0)});
   }
 
   void carry_out(const link::ArmTrace& request) {

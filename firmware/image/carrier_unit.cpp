@@ -6,6 +6,7 @@
 
 #include "controller_configuration.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/history.hpp"
 #include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/sequence_lock.hpp"
@@ -13,6 +14,7 @@
 #include "firmware/app/unit.hpp"
 #include "firmware/image/carrier/carrier_board.hpp"
 #include "hal/kept_exception.hpp"
+#include "hal/reset_cause.hpp"
 #include "hal/trace_records.hpp"
 
 namespace {
@@ -35,9 +37,15 @@ constexpr app::FieldDesign<configuration::Parts> design(
     configuration::design, configuration::full_scales, configuration::step_period_s,
     app::default_timeout_ms);
 
+using History = app::HistoryOn<Hardware::Flash>;
+
+constexpr auto periods_per_second =
+    static_cast<std::uint32_t>(1.0 / configuration::step_period_s + 0.5);
+
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
   static inline const sonoglide::hal::KeptException* exception = nullptr;
+  static inline History::Pointer history = nullptr;
 };
 
 using Course = decltype(app::course_of<CarrierBoard>(configuration::target_steps));
@@ -60,6 +68,12 @@ extern "C" void take_carrier() {
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
+  sonoglide::hal::ResetCause cause{};
+  if constexpr (History::kept) {
+    cause = sonoglide::hal::reset_cause(watchdog, Product::exception);
+  }
+  History history(flash, watchdog, cause, Product::exception, periods_per_second);
+  Product::history = history.pointer();
   Unit unit(design, flash, app::course_of<CarrierBoard>(configuration::target_steps));
   Service service(unit, bytes);
   CarrierBoard board(ticks);

@@ -8,12 +8,14 @@
 #include "controller_configuration.hpp"
 #include "firmware/app/exchange.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/history.hpp"
 #include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "hal/kept_exception.hpp"
+#include "hal/reset_cause.hpp"
 #include "hal/serial_line.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/trace_records.hpp"
@@ -48,13 +50,18 @@ static_assert(serves || !std::is_same_v<Answer, sonoglide::hal::BiasedDrive>,
 constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
     configuration::carrier_period_s, configuration::every_periods);
 
+constexpr auto periods_per_second = static_cast<std::uint32_t>(1.0 / period_s + 0.5);
+
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
     configuration::design, configuration::full_scales, period_s, Hardware::host_timeout_ms);
 
+using History = app::HistoryOn<Hardware::Flash>;
+
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;
   static inline const sonoglide::hal::KeptException* exception = nullptr;
+  static inline History::Pointer history = nullptr;
 };
 
 using Course = decltype(app::course_of<Hardware::Board>(configuration::target_steps));
@@ -93,6 +100,12 @@ int main() {
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
+  sonoglide::hal::ResetCause cause{};
+  if constexpr (History::kept) {
+    cause = sonoglide::hal::reset_cause(watchdog, Product::exception);
+  }
+  History history(flash, watchdog, cause, Product::exception, periods_per_second);
+  Product::history = history.pointer();
   Unit unit(design, flash, app::course_of<Hardware::Board>(configuration::target_steps));
   app::LinkService<Unit, Hardware::ByteLink,
                    sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>

@@ -261,7 +261,8 @@ struct ReadException {
   static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
 };
 
-/// The exception of the processor that ended the run before the reset, see hal::KeptException.
+/// The exception of the processor that ended the run before the reset, see hal::KeptException; of a unit with a
+/// history the last one, see History::exception_boot.
 struct KeptException {
   static constexpr std::uint8_t kind = ReadException::kind | answer_bit;
   std::uint32_t exception;
@@ -284,11 +285,43 @@ struct KeptException {
   }
 };
 
+/// Asks for History.
+struct ReadHistory {
+  static constexpr std::uint8_t kind = 0x11;
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
+};
+
+/// What a unit has been through, see app::UnitHistory.
+struct History {
+  static constexpr std::uint8_t kind = ReadHistory::kind | answer_bit;
+  std::uint32_t boots;
+  std::uint32_t seconds;
+  std::uint32_t watchdog_resets;
+  std::uint32_t exceptions;
+  std::uint32_t exception_boot;
+  std::uint8_t cause;  ///< hal::ResetCause of the last reset
+  std::uint8_t saved;  ///< 1: written down
+
+  template <class Message, class Visitor>
+  static constexpr void fields(Message& message, Visitor&& visit) {
+    visit(message.boots);
+    visit(message.seconds);
+    visit(message.watchdog_resets);
+    visit(message.exceptions);
+    visit(message.exception_boot);
+    visit(message.cause);
+    visit(message.saved);
+  }
+};
+
 /// Asks for what may have changed since, and changes nothing: to be answered anew each time.
 constexpr bool is_reading(std::uint8_t kind) {
   return kind == ReadTelemetry::kind || kind == ReadParameter::kind || kind == ReadFault::kind ||
          kind == ReadIdentity::kind || kind == ReadTraceState::kind ||
-         kind == ReadTraceRecord::kind || kind == ReadScale::kind || kind == ReadException::kind;
+         kind == ReadTraceRecord::kind || kind == ReadScale::kind || kind == ReadException::kind ||
+         kind == ReadHistory::kind;
 }
 
 enum class Reason : std::uint8_t {

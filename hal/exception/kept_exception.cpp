@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "hal/reset_cause.hpp"
 #include "hal/start/image_end.hpp"
 
 namespace sonoglide::hal {
@@ -11,6 +12,7 @@ namespace {
 struct Record {
   KeptException exception;
   std::uint32_t check;  ///< of the exception; after power-on anything may stand here
+  std::uint32_t mark;   ///< that RAM was kept
 };
 
 [[gnu::section(".noinit")]] Record record;
@@ -34,7 +36,8 @@ bool is_whole() {
 /// Unless one is kept: what comes after the first one may be its consequence.
 void keep(const KeptException& exception) {
   if (!is_whole()) {
-    record = {exception, check_of(exception)};
+    record.exception = exception;
+    record.check = check_of(exception);
   }
 }
 
@@ -46,6 +49,13 @@ const KeptException* take_kept_exception() {
   }
   record.check = ~record.check;
   return &record.exception;
+}
+
+bool ram_was_kept() {
+  constexpr std::uint32_t mark = 0x5EA1ED3A;
+  const bool kept = record.mark == mark;
+  record.mark = mark;
+  return kept;
 }
 
 }  // namespace sonoglide::hal

@@ -54,11 +54,12 @@ class Watchdog {
 
 // Flash of the nRF51, through its non-volatile memory controller.
 
-/// The last two pages, which the linker script keeps free of code. The processor stands still while
+/// The last two pages for parameters, and the two before for the history, which the linker script keeps free of code. The processor stands still while
 /// a page is erased (22 ms) or a word is programmed (46 us), because its code is in the same flash.
 class Flash {
  public:
   static constexpr std::size_t page_words = 256;
+  static constexpr std::size_t pages = 4;
 
   std::uint32_t read(std::size_t page, std::size_t word) const;
   void erase(std::size_t page);

@@ -18,6 +18,11 @@ static_assert(offsetof(ControllerRegisters, configuration) == 0x504);
 extern "C" {
 extern ControllerRegisters flash_control;
 extern volatile std::uint32_t parameter_pages[2][Flash::page_words];
+extern volatile std::uint32_t history_pages[2][Flash::page_words];
+}
+
+volatile std::uint32_t* words_of(std::size_t page) {
+  return page < 2 ? parameter_pages[page] : history_pages[page - 2];
 }
 
 enum Configuration : std::uint32_t { read_only = 0, write_enabled = 1, erase_enabled = 2 };
@@ -30,14 +35,14 @@ void wait() {
 }  // namespace
 
 std::uint32_t Flash::read(std::size_t page, std::size_t word) const {
-  return parameter_pages[page][word];
+  return words_of(page)[word];
 }
 
 void Flash::erase(std::size_t page) {
   flash_control.configuration = erase_enabled;
   wait();
   flash_control.erase_page =
-      static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(parameter_pages[page]));
+      static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(words_of(page)));
   wait();
   flash_control.configuration = read_only;
 }
@@ -45,7 +50,7 @@ void Flash::erase(std::size_t page) {
 void Flash::program(std::size_t page, std::size_t word, std::uint32_t value) {
   flash_control.configuration = write_enabled;
   wait();
-  parameter_pages[page][word] = value;
+  words_of(page)[word] = value;
   wait();
   flash_control.configuration = read_only;
 }

@@ -46,6 +46,7 @@ const std::vector<Console::Command>& Console::commands() {
       {"restart", "restart", 0, 0, [](Console& on, const Words&) { return on.restart(); }},
       {"confirm", "confirm", 0, 0, [](Console& on, const Words&) { return on.confirm(); }},
       {"log", "log", 0, 0, [](Console& on, const Words&) { return on.log(); }},
+      {"history", "history", 0, 0, [](Console& on, const Words&) { return on.history(); }},
       {"params", "params, params NAME", 0, 1,
        [](Console& on, const Words& words) {
          return words.empty() ? on.list_parameters() : on.list_parameter(words[0]);
@@ -185,9 +186,26 @@ Console::Lines Console::log() {
     count = fault->count;
   }
   lines.push_back(fmt::format("faults since reset: {}", count));
+  const auto past = unit_.ask<link::History>(link::ReadHistory{});
+  const auto* history = std::get_if<link::History>(&past);
   const auto result = unit_.ask<link::KeptException>(link::ReadException{});
-  if (const auto* kept = std::get_if<link::KeptException>(&result)) {
-    lines.push_back(text_of(*kept));
+  const auto* kept = std::get_if<link::KeptException>(&result);
+  if (kept != nullptr && (history == nullptr || history->exception_boot == history->boots)) {
+    lines.push_back(text_of(*kept, "the reset"));
+  }
+  return lines;
+}
+
+Console::Lines Console::history() {
+  const auto result = unit_.ask<link::History>(link::ReadHistory{});
+  const auto* history = std::get_if<link::History>(&result);
+  if (history == nullptr) {
+    return refuse("the unit keeps no history");
+  }
+  Lines lines{text_of(*history)};
+  const auto exception = unit_.ask<link::KeptException>(link::ReadException{});
+  if (const auto* kept = std::get_if<link::KeptException>(&exception)) {
+    lines.push_back(text_of(*kept, fmt::format("boot {}", history->exception_boot)));
   }
   return lines;
 }

@@ -54,6 +54,7 @@ class Console {
   Lines restart();
   Lines confirm();
   Lines log();
+  Lines history();
   Lines list_parameters();
   Lines list_parameter(const std::string& name);
   Lines set_parameter(const std::string& name, const std::string& text);

@@ -13,6 +13,7 @@
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "hal/reset_cause.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/process/printable.hpp"
 
@@ -27,6 +28,20 @@ std::string text_of(double value, link::ScaleUnit unit) {
   return unit == link::ScaleUnit::none
              ? "none"
              : output::plain_zero(fmt::format("{:.6g}", value)) + unit_name(unit).behind_number;
+}
+
+const char* cause_name(std::uint8_t cause) {
+  switch (static_cast<hal::ResetCause>(cause)) {
+    case hal::ResetCause::power_on:
+      return "power-on";
+    case hal::ResetCause::reset:
+      return "a reset";
+    case hal::ResetCause::watchdog:
+      return "a reset by the watchdog";
+    case hal::ResetCause::exception:
+      return "an exception";
+  }
+  return "a cause that is not known";
 }
 
 }  // namespace
@@ -169,11 +184,20 @@ std::string text_of(const link::Identity& told) {
                      told.serial_number == 0 ? "none" : std::to_string(told.serial_number));
 }
 
-std::string text_of(const link::KeptException& told) {
+std::string text_of(const link::History& told) {
   return fmt::format(
-      "exception {} before the reset: program counter {:#010x}, link register {:#010x}, program "
+      "boot {}, after {}; in operation {} h {} min {} s; boots after the watchdog {}, after an "
+      "exception {}{}",
+      told.boots, cause_name(told.cause), told.seconds / 3600, told.seconds / 60 % 60,
+      told.seconds % 60, told.watchdog_resets, told.exceptions,
+      told.saved != 0 ? "" : "; not saved: the flash of the unit took nothing");
+}
+
+std::string text_of(const link::KeptException& told, const std::string& before) {
+  return fmt::format(
+      "exception {} before {}: program counter {:#010x}, link register {:#010x}, program "
       "status {:#010x}, fault status {:#010x}, hard fault status {:#010x}, fault address {:#010x}",
-      told.exception, told.program_counter, told.link_register, told.program_status,
+      told.exception, before, told.program_counter, told.link_register, told.program_status,
       told.fault_status, told.hard_fault_status, told.fault_address);
 }
 

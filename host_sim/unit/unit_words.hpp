@@ -46,6 +46,8 @@ std::string text_of(const link::ParameterValue& value, const UnitScales& scales)
 std::string text_of(const link::Telemetry& told, const UnitScales& scales);
 std::string text_of(const UnitScales& scales);
 std::string text_of(const link::Identity& told);
-std::string text_of(const link::KeptException& told);
+std::string text_of(const link::History& told);
+/// @param before  what it came before
+std::string text_of(const link::KeptException& told, const std::string& before);
 
 }  // namespace sonoglide::unit

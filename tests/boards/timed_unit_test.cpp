@@ -1,6 +1,7 @@
 // Units on their board's own timer, talked to by the host program over a serial
 // device. The emulator's time is that of its
 // instructions, so that whether a step is done in time does not depend on the machine.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -433,6 +434,22 @@ TEST_P(TimedUnit, TellsItsHostOfAnExceptionBeforeTheReset) {
             "exception 3 before the reset: program counter 0x00001234, link register 0x00005679, "
             "program status 0x61000003, fault status 0x00010000, hard fault status 0x40000000, "
             "fault address 0x40000001");
+}
+
+TEST(TimedHistory, OfABoardWhoseFlashTheEmulatorHasIsKeptOverResets) {
+  if (!is_tested("microbit")) {
+    GTEST_SKIP();
+  }
+  Terminal terminal(emulate("microbit", "target_step_timed", 6));
+  terminal.connect();
+  EXPECT_EQ(terminal.type("history").find("boot 1, after power-on; in operation 0 h 0 min "), 0U);
+  for (int boot = 2; boot < 5; ++boot) {
+    terminal.reset();
+    const std::string told = terminal.type("history");
+    EXPECT_EQ(told.find(fmt::format("boot {}, after a reset; in operation ", boot)), 0U) << told;
+    EXPECT_NE(told.find("; boots after the watchdog 0, after an exception 0"), std::string::npos)
+        << told;
+  }
 }
 
 std::string name_of(const TimedBoard& board) {

@@ -127,6 +127,18 @@ KeptException kept_exception() {
   return message;
 }
 
+History history() {
+  History message{};
+  message.boots = 18;
+  message.seconds = 0x01020304;
+  message.watchdog_resets = 3;
+  message.exceptions = 2;
+  message.exception_boot = 17;
+  message.cause = 2;
+  message.saved = 1;
+  return message;
+}
+
 Refusal refusal() {
   Refusal message{};
   message.request = 4;
@@ -186,6 +198,9 @@ TEST(MessageBytes, AreThoseOfTheReference) {
       {frame_of(ReadException{}, 16), "000402101005b6a6a9dd00"},
       {frame_of(kept_exception(), 16),
        "0004029010020301010a040302011513121103010261010201010101024001010640871442f600"},
+      {frame_of(ReadHistory{}, 17), "000402111105c0fd70c500"},
+      {frame_of(history(), 17),
+       "0004029111021201010604030201030101020201010211010106020190eebf0100"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {
@@ -279,7 +294,8 @@ TEST(MessageBytes, CodesHaveTheNumbersOfTheReference) {
 TEST(MessageKinds, OnlyThoseThatReadAreReadings) {
   const std::vector<int> readings =
       numbers(ReadTelemetry::kind, ReadParameter::kind, ReadFault::kind, ReadIdentity::kind,
-              ReadTraceState::kind, ReadTraceRecord::kind, ReadScale::kind, ReadException::kind);
+              ReadTraceState::kind, ReadTraceRecord::kind, ReadScale::kind, ReadException::kind,
+              ReadHistory::kind);
   for (int kind = 0; kind <= 0xFF; ++kind) {
     const bool reads = std::find(readings.begin(), readings.end(), kind) != readings.end();
     EXPECT_EQ(is_reading(static_cast<std::uint8_t>(kind)), reads) << kind;

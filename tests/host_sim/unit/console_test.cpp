@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/app/history.hpp"
 #include "firmware/app/link_service.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/link/trace_messages.hpp"
@@ -237,6 +238,48 @@ TEST_F(ConsoleAfterAnException, LogEndsWithIt) {
                    "exception 3 before the reset: program counter 0x00001234, link register "
                    "0x00005679, program status 0x61000003, fault status 0x00010000, hard fault "
                    "status 0x40000000, fault address 0x40000000"}));
+}
+
+/// In its 18th boot, 3 h and some after the first.
+struct ProductWithHistory : app::TestedProduct {
+  static app::UnitHistory<app::HistoryPages> of_boots(int boots) {
+    app::CountingWatchdog watchdog;
+    app::UnitHistory<app::HistoryPages> last(pages, watchdog, hal::ResetCause::watchdog,
+                                             &ProductAfterAnException::kept, 1);
+    last.serve(1, false);
+    for (std::uint32_t second = 1; second < 11'045; ++second) {
+      last.serve(second, false);
+    }
+    last.note_stop();
+    for (int i = 0; i < 100; ++i) {
+      last.serve(11'045, true);
+    }
+    for (int i = 2; i < boots; ++i) {
+      app::UnitHistory<app::HistoryPages>(pages, watchdog, hal::ResetCause::watchdog, nullptr, 1);
+    }
+    return {pages, watchdog, hal::ResetCause::reset, nullptr, 60'000};
+  }
+  static inline app::SimulatedFlash flash;
+  static inline app::HistoryPages pages{flash};
+  static inline app::UnitHistory<app::HistoryPages> kept = of_boots(18);
+  static inline app::UnitHistory<app::HistoryPages>* history = &kept;
+};
+using ConsoleOfAHistory = ConsoleOf<RatioDesign, app::TimedBoard, ProductWithHistory>;
+
+TEST_F(ConsoleOfAHistory, TellsIt) {
+  const Lines told = ask("history");
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].find("boot 18, after a reset; in operation 3 h 4 min "), 0U) << told[0];
+  EXPECT_NE(told[0].find(" s; boots after the watchdog 17, after an exception 1"),
+            std::string::npos)
+      << told[0];
+  EXPECT_EQ(told[1].find("exception 3 before boot 1: program counter 0x00001234, "), 0U) << told[1];
+  EXPECT_EQ(ask("log"), (Lines{"faults since reset: 0"}));
+}
+
+TEST_F(ConsoleTest, AUnitWithoutAHistorySaysSo) {
+  EXPECT_EQ(ask("history"), (Lines{"the unit keeps no history"}));
+  EXPECT_EQ(console_.refused(), 1U);
 }
 
 TEST_F(ConsoleTest, SaysWhatTheUnitIs) {
@@ -508,7 +551,7 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("set gain 1").find("unknown parameter; there are: target, drive_limit,"), 0U);
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
   const std::string commands =
-      "identity, status, target NUMBER, stop, restart, confirm, log, params, params NAME, "
+      "identity, status, target NUMBER, stop, restart, confirm, log, history, params, params NAME, "
       "set NAME VALUE, tare, stream CHANNEL ... [every N], stream off, plot CHANNEL, trace, trace now, "
       "trace on fault|target [STEPS_BEFORE], trace save FILE, step FROM TO [FILE], help";
   EXPECT_EQ(line_of("help"), commands);

@@ -114,6 +114,26 @@ class TimedBoard {
   std::uint32_t sampled_;
 };
 
+/// A flash of four pages, of which the last two alone are there.
+class HistoryPages {
+ public:
+  static constexpr std::size_t page_words = SimulatedFlash::page_words;
+  static constexpr std::size_t pages = 4;
+
+  explicit HistoryPages(SimulatedFlash& flash) : flash_(flash) {}
+  std::uint32_t read(std::size_t page, std::size_t word) const {
+    return flash_.read(page - 2, word);
+  }
+  void erase(std::size_t page) { flash_.erase(page - 2); }
+  void program(std::size_t page, std::size_t word, std::uint32_t value) {
+    flash_.program(page - 2, word, value);
+  }
+  bool busy() const { return flash_.busy(); }
+
+ private:
+  SimulatedFlash& flash_;
+};
+
 class CountingWatchdog {
  public:
   void feed() { ++feeds; }
