@@ -9,27 +9,14 @@
 #include "firmware/app/force_calibration.hpp"
 #include "firmware/app/host_ramp.hpp"
 #include "firmware/app/order_slot.hpp"
-#include "firmware/app/sequence_lock.hpp"
+#include "firmware/app/signs_of_life.hpp"
+#include "firmware/app/snapshot.hpp"
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/target_schedule.hpp"
 #include "firmware/app/trace.hpp"
 #include "hal/board.hpp"
 
 namespace sonoglide::app {
-
-/// What a carrier period showed and what was answered, as the service sees it.
-struct Snapshot {
-  std::uint32_t periods;  ///< served since reset, wraps
-  std::int32_t friction_force;
-  std::int32_t sliding_velocity;
-  hal::Drive drive;
-
-  /// The controller runs, or the drive ramps down.
-  bool driving() const {
-    const auto state = static_cast<control::State>(drive.state);
-    return (state != control::State::off && state != control::State::fault) || drive.amplitude != 0;
-  }
-};
 
 /// The control side is called once in each carrier period, from the carrier's interrupt or from a loop:
 /// step(), trip(), serviced() and publish(). The service side is called from anywhere that the control
@@ -50,7 +37,12 @@ struct Snapshot {
 /// @tparam Course        of the target: OrderedTargets or TextureCourse
 template <class ControllerT, class Designed, template <class> class Atomic = std::atomic,
           std::size_t TraceRecords = 0, class Course = OrderedTargets>
-class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
+class CommandedSupervisor : private SignsOfLife<Atomic>,
+                            private CalibrationOf<ControllerT>,
+                            private ShownPeriod<Atomic>,
+                            public Supervisor<ControllerT, HostRamp> {
+  // What each carrier period reads and writes is in the bases, near the beginning, as in Supervisor.
+  using Signs = SignsOfLife<Atomic>;
   using Base = Supervisor<ControllerT, HostRamp>;
 
  public:
@@ -88,20 +80,21 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
                       std::uint32_t timeout_periods, std::uint32_t service_periods,
                       const Course& course = Course(),
                       const Calibration& calibration = Calibration())
-      : Base(parameters),
+      : Signs(timeout_periods, service_periods),
+        Calibration(calibration),
+        Base(parameters),
         course_(course),
         designed_(designed),
-        timeout_periods_(timeout_periods),
-        service_periods_(service_periods),
-        calibration_(calibration),
         orders_(parameters) {
     Base::settle_at(designed_);
   }
 
   // ---- The control side's ----
 
+  using Signs::serviced;
+
   /// Of a reading the sample that step(), hold() and pass() take.
-  void calibrate(Sample& reading) const { calibration_.apply(reading); }
+  void calibrate(Sample& reading) const { Calibration::apply(reading); }
 
   /// One carrier period.
   const Drive& step(const Sample& sample) { return step(sample, look()); }
@@ -156,39 +149,17 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     }
   }
 
-  /// The service came round of late.
-  bool serviced() const { return stalled_periods_ < service_periods_; }
-
   /// Shows the period to the service, and records it if that is asked for; after step() and trip().
   void publish() {
-    const hal::Drive& drive = Base::drive();
-    shown_.begin();
-    shown_.write(0, Base::periods());
-    shown_.write(1, static_cast<std::uint32_t>(Base::friction_force()));
-    shown_.write(2, static_cast<std::uint32_t>(Base::sliding_velocity()));
-    shown_.write(3, static_cast<std::uint32_t>(drive.amplitude));
-    shown_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
-    shown_.write(5, codes_of(drive));
-    shown_.end();
+    ShownPeriod<Atomic>::show(static_cast<const Base&>(*this));
     trace_.record(*this);
   }
 
   // ---- The service's ----
 
-  Snapshot snapshot() const {
-    Snapshot result{};
-    shown_.read_whole([&] {
-      result.periods = shown_.read(0);
-      result.friction_force = static_cast<std::int32_t>(shown_.read(1));
-      result.sliding_velocity = static_cast<std::int32_t>(shown_.read(2));
-      const std::uint32_t codes = shown_.read(5);
-      result.drive = {
-          static_cast<std::int32_t>(shown_.read(3)), static_cast<std::int32_t>(shown_.read(4)),
-          static_cast<std::uint8_t>(codes),          static_cast<std::uint8_t>(codes >> 8),
-          static_cast<std::uint8_t>(codes >> 16),    static_cast<std::uint8_t>(codes >> 24)};
-    });
-    return result;
-  }
+  using Signs::hear_host;
+  using Signs::note_service;
+  using ShownPeriod<Atomic>::snapshot;
 
   /// Zero drive from the next carrier period on, until a restart that is ordered later.
   void order_stop() { orders_.stop(); }
@@ -222,14 +193,8 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   /// Of the order that was given last.
   OrderEnd order_end() const { return orders_.end(); }
 
-  /// The host gave a sign of life.
-  void hear_host() { heard_.store(++heard_by_service_, std::memory_order_release); }
-
   /// What is recorded.
   Recorder& trace() { return trace_; }
-
-  /// The service comes round.
-  void note_service() { rounds_.store(++rounds_of_service_, std::memory_order_release); }
 
  private:
   /// @return whether the period has its step all the same
@@ -240,7 +205,7 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
     }
     switch (order.kind) {
       case Kind::restart:
-        silent_periods_ = 0;
+        Signs::excuse_host();
         start();
         break;
       case Kind::target:
@@ -249,8 +214,8 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
         trace_.note_target(Base::periods());
         break;
       case Kind::parameters:
-        timeout_periods_ = order.timeout_periods;
-        calibration_ = order.calibration;
+        Signs::set_timeout(order.timeout_periods);
+        static_cast<Calibration&>(*this) = order.calibration;
         Base::replace(order.controller);
         Base::settle_at(designed_);
         set_target(order.target);
@@ -266,44 +231,20 @@ class CommandedSupervisor : public Supervisor<ControllerT, HostRamp> {
   [[gnu::noinline]] void start() { Base::restart(); }
 
   void watch_host() {
-    const std::uint32_t heard = heard_.load(std::memory_order_acquire);
-    if (heard != heard_last_) {
-      heard_last_ = heard;
-      silent_periods_ = 0;
-    }
-    if (timeout_periods_ != 0 && Base::driving() && silent_periods_++ >= timeout_periods_) {
+    if (Signs::listen() && Base::driving() && Signs::misses_host()) {
       Base::ramp_down(UnitFault::host_silent);
     }
   }
 
   void watch_service() {
-    const std::uint32_t rounds = rounds_.load(std::memory_order_acquire);
-    if (rounds != rounds_last_) {
-      rounds_last_ = rounds;
-      stalled_periods_ = 0;
-      return;
-    }
-    stalled_periods_ += serviced() ? 1U : 0U;
-    if (!serviced() && Base::driving()) {
+    if (Signs::misses_service() && Base::driving()) {
       Base::trip(UnitFault::service_stalled);
     }
   }
 
   [[no_unique_address]] Course course_;
   const Designed& designed_;
-  std::uint32_t timeout_periods_;
-  std::uint32_t service_periods_;
-  [[no_unique_address]] Calibration calibration_;
-  std::uint32_t silent_periods_ = 0;
-  std::uint32_t stalled_periods_ = 0;
-  std::uint32_t heard_last_ = 0;
-  std::uint32_t rounds_last_ = 0;
-  std::uint32_t heard_by_service_ = 0;
-  std::uint32_t rounds_of_service_ = 0;
-  Atomic<std::uint32_t> heard_{0};
-  Atomic<std::uint32_t> rounds_{0};
   OrderSlot<Order, Atomic> orders_;
-  SequenceLock<6, Atomic> shown_;
   [[no_unique_address]] Recorder trace_;
 };
 

@@ -187,12 +187,13 @@ class Supervisor {
     drive_.fault = fault;
   }
 
-  Controller controller_;
+  // The small ones first: small processors reach what is near the beginning by fewer instructions.
   std::int32_t friction_force_ = 0;
   std::int32_t sliding_velocity_ = 0;
   Drive drive_{};
   std::uint32_t periods_ = 0;
   [[no_unique_address]] Host host_;
+  Controller controller_;
   FaultLog<LogLength, Host::template Word> log_;
 };
 

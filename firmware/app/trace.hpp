@@ -12,12 +12,6 @@
 
 namespace sonoglide::app {
 
-/// State, limit, fault and settling, from the lowest byte on.
-constexpr std::uint32_t codes_of(const hal::Drive& drive) {
-  return drive.state | std::uint32_t{drive.limit} << 8 | std::uint32_t{drive.fault} << 16 |
-         std::uint32_t{drive.settling} << 24;
-}
-
 /// In the place of a trace, and costs nothing.
 struct NoTrace {
   static constexpr std::size_t records = 0;
