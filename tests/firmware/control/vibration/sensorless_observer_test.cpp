@@ -113,6 +113,44 @@ TYPED_TEST(SensorlessObserverTest, ForeseesWhatAChangeOfTheAmplitudeKicks) {
   EXPECT_NEAR(numeric::to_real(observer.frequency_parameter()), 0.0, 1e-5);
 }
 
+// A reading is a mean over its period, and of a contact that is led: it shows the last two changes of the
+// amplitude themselves, and both coordinates of the mode.
+TYPED_TEST(SensorlessObserverTest, ForeseesWhatTheLastTwoChangesShowAtOnce) {
+  constexpr double second = 0.1;
+  constexpr double last_change = 0.2;
+  constexpr double change_before = -0.15;
+  auto nominal = parameters<TypeParam>(0.001);
+  for (SensorlessRow<TypeParam>& row : nominal.table) {
+    for (std::size_t node = 0; node < SensorlessIndex::nodes; ++node) {
+      TypeParam* const numbers = &row[SensorlessIndex::plain + node * SensorlessIndex::Node::count];
+      numbers[SensorlessIndex::Node::output + 1] = scaled<TypeParam>(second);
+      numbers[SensorlessIndex::Node::last_change] = scaled<TypeParam>(last_change);
+      numbers[SensorlessIndex::Node::change_before] = scaled<TypeParam>(change_before);
+    }
+  }
+  SensorlessObserver<TypeParam> observer(nominal);
+  std::complex<double> mode;
+  double before = amplitude;
+  double earlier = amplitude;
+  for (int k = 0; k < 30; ++k) {
+    const double now = amplitude + 0.1 * ((5 * k + 3) % 4);
+    const double change = now - before;
+    mode = mode * std::polar(1.0, angle(0.0)) + std::complex<double>(0.0, input_gain * change);
+    observer.predict(scaled<TypeParam>(change));
+    const double velocity = forced * now + output * mode.real() + second * mode.imag() +
+                            last_change * change + change_before * (before - earlier);
+    observer.observe(
+        scaled<TypeParam>(velocity), scaled<TypeParam>(speed),
+        {scaled<TypeParam>(now), scaled<TypeParam>(before), scaled<TypeParam>(earlier)},
+        scaled<TypeParam>(0.5));
+    EXPECT_NEAR(numeric::to_real(observer.mode().first), mode.real(), 1e-5) << k;
+    EXPECT_NEAR(numeric::to_real(observer.mode().second), mode.imag(), 1e-5) << k;
+    earlier = before;
+    before = now;
+  }
+  EXPECT_NEAR(numeric::to_real(observer.frequency_parameter()), 0.0, 1e-4);
+}
+
 TYPED_TEST(SensorlessObserverTest, FindsTheNaturalFrequencyOfWhatItKicks) {
   for (const double frequency_parameter : {-0.8, -0.3, 0.5, 0.9}) {
     const auto nominal = parameters<TypeParam>(0.0005);
@@ -167,6 +205,28 @@ TYPED_TEST(SensorlessObserverTest, ForgetsAModeThatNothingShows) {
     observer.observe(scaled<TypeParam>(0.1), scaled<TypeParam>(speed), {}, scaled<TypeParam>(0.5));
   }
   EXPECT_NEAR(numeric::to_real(observer.mode().second), kicked * std::pow(31.0 / 32.0, 32), 1e-6);
+}
+
+// Numbers of the table that are on a base stand there divided by it, in fixed point only.
+TYPED_TEST(SensorlessObserverTest, FeedbackAndAmplitudesAreThoseOfTheTable) {
+  auto nominal = parameters<TypeParam>(0.001);
+  nominal.feedback_base = 1;
+  nominal.inverse_base = 3;
+  for (SensorlessRow<TypeParam>& row : nominal.table) {
+    row[SensorlessIndex::feedback] = scaled<TypeParam>(0.25);
+    row[SensorlessIndex::feedback + 1] = scaled<TypeParam>(-0.125);
+    row[SensorlessIndex::feedback + 2] = scaled<TypeParam>(0.0625);
+    row[SensorlessIndex::per_velocity] = scaled<TypeParam>(0.5);
+  }
+  const SensorlessObserver<TypeParam> observer(nominal);
+  const double base = numeric::is_fixed_point_v<TypeParam> ? 2.0 : 1.0;
+  const Pair<TypeParam> mode{scaled<TypeParam>(0.2), scaled<TypeParam>(0.3)};
+  EXPECT_NEAR(numeric::to_real(observer.feedback(mode, scaled<TypeParam>(0.4))),
+              base * (0.25 * 0.2 - 0.125 * 0.3 + 0.0625 * 0.4), 1e-6);
+  EXPECT_NEAR(numeric::to_real(observer.nominal_velocity(scaled<TypeParam>(0.4))), forced * 0.4,
+              1e-6);
+  EXPECT_NEAR(numeric::to_real(observer.quarter_amplitude(scaled<TypeParam>(0.2))),
+              (numeric::is_fixed_point_v<TypeParam> ? 8.0 : 1.0) * 0.5 * 0.2 / 4.0, 1e-6);
 }
 
 /// Of the place, after so many periods of a mode that was kicked from rest: the observer knows the kick
