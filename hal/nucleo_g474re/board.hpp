@@ -270,11 +270,12 @@ class Watchdog {
   bool caused_reset_;
 };
 
-/// The last two pages of the second bank, which may be erased and programmed while the first is read. Each word
-/// takes 64 bits.
+/// The last four pages of the second bank, the first two of them for the history; they may be erased and programmed
+/// while the first bank is read. Each word takes 64 bits.
 class Flash {
  public:
   static constexpr std::size_t page_words = 256;
+  static constexpr std::size_t pages = 4;
 
   std::uint32_t read(std::size_t page, std::size_t word) const;
   void erase(std::size_t page);

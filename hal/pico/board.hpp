@@ -152,11 +152,12 @@ class Watchdog {
   bool caused_reset_;
 };
 
-/// The last two sectors of the flash. Once this is made, the flash is no longer in the address space: its
-/// chip is spoken to byte by byte.
+/// The last four sectors of the flash, the first two of them for the history. Once this is made, the flash is no
+/// longer in the address space: its chip is spoken to byte by byte.
 class Flash {
  public:
   static constexpr std::size_t page_words = 64;
+  static constexpr std::size_t pages = 4;
 
   Flash();
   std::uint32_t read(std::size_t page, std::size_t word) const;

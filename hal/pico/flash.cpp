@@ -11,6 +11,7 @@ namespace {
 // Addresses from memory.ld.
 extern "C" {
 extern std::uint8_t parameter_sectors[];
+extern std::uint8_t history_sectors[];
 }
 
 constexpr std::size_t sector_bytes = 4096;
@@ -45,8 +46,9 @@ class Exchange {
 };
 
 std::uint32_t address(std::size_t page, std::size_t word) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(parameter_sectors) +
-                                    page * sector_bytes + 4 * word);
+  const auto* const sector = page < 2 ? parameter_sectors + page * sector_bytes
+                                      : history_sectors + (page - 2) * sector_bytes;
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(sector) + 4 * word);
 }
 
 void enable_write() {

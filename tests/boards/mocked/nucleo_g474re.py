@@ -12,7 +12,7 @@ CARRIER_INTERRUPT = 25
 NON_MASKABLE = 2
 
 FLASH = 0x08000000
-PARAMETERS = 0x0807F000
+HISTORY = 0x0807E000  # and the parameters behind it
 WATCHDOG, WATCHDOG_WINDOW = 0x40002C00, 0x40002C04
 USART = 0x40004400
 POWER_BOOST = 0x40007080
@@ -147,7 +147,8 @@ class Board(Machine):
     def count(self):
         """Of the watchdog: falls from 127 by one in 4096 clocks times its divider."""
         divider = 4096 << (self.registers.get(WATCHDOG_WINDOW, 0) >> 11 & 7)
-        clocks = (self.carrier_periods - self.reloaded) * 2 * self.registers.get(CARRIER + RELOAD, 1400)
+        periods = max(self.carrier_periods - self.reloaded, 0)  # no time passes before the first
+        clocks = periods * 2 * self.registers.get(CARRIER + RELOAD, 1400)
         return max(0x7F - clocks // divider, 0)
 
     def update(self):
@@ -238,10 +239,10 @@ class Board(Machine):
             self.registers[TRANSFERS + 0x14 * 2 + 4] = 256 - self.received
 
     def parameters(self):
-        return bytes(self.uc.mem_read(PARAMETERS, 0x1000))
+        return bytes(self.uc.mem_read(HISTORY, 0x2000))
 
     def store(self, content):
-        self.uc.mem_write(PARAMETERS, content)
+        self.uc.mem_write(HISTORY, content)
 
     def reset_by_watchdog(self):
         return self.count() <= 0x3F

@@ -11,7 +11,7 @@ PAIRS_OF_CLOCKS_HZ = 75e6
 CARRIER_INTERRUPT = 8
 
 FLASH = 0x10000000
-PARAMETERS = 0x3FE000  # in the flash chip
+HISTORY = 0x3FC000  # in the flash chip, and the parameters behind it
 CLOCKS, RESETS, PINS, PADS = 0x40010000, 0x40020000, 0x40028000, 0x40038000
 CRYSTAL, PLLS = 0x40048000, (0x40050000, 0x40058000)
 UART, CONVERTER = 0x40070000, 0x400A0000
@@ -28,7 +28,7 @@ class FlashChip:
     """Answers byte by byte while it is selected; an instruction is carried out at its end."""
 
     def __init__(self):
-        self.content = {PARAMETERS + i: 0xFF for i in range(0x2000)}
+        self.content = {HISTORY + i: 0xFF for i in range(0x4000)}
         self.bytes = []
         self.enabled = False
 

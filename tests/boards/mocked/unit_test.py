@@ -6,13 +6,14 @@ import importlib
 import struct
 import sys
 
-from link import READ_PARAMETER, RESTART, STOP, TARGET, WRITE_PARAMETER, Link
+from link import READ_HISTORY, READ_PARAMETER, RESTART, STOP, TARGET, WRITE_PARAMETER, Link
 from machine import HARD_FAULT
 
 DRIVE_LIMIT = 1
 STATE_OFF, STATE_FAULT = 0, 4
 MISSING, SATURATED, STALLED, WATCHDOG_RESET = 17, 18, 34, 33
 BY_LINE, BY_CHIP = 65, 66  # external_1, external_2
+POWER_ON, BY_WATCHDOG = 0, 2
 IN_MAIN = 400  # instructions between two steps
 
 board_of = importlib.import_module(sys.argv[1])
@@ -128,19 +129,31 @@ def bad_conversions(unit):
     unit.fails(MISSING)
 
 
+def history(unit):
+    """Boots, watchdog resets, cause of the last one, and whether it is written down."""
+    boots, _, by_watchdog, _, _, cause, saved = struct.unpack("<5I2B", unit.link.ask(READ_HISTORY)[1])
+    return boots, by_watchdog, cause, saved
+
+
 def parameters(unit):
     unit.link.ask(STOP)
     unit.periods(20)
+    assert history(unit) == (1, 0, POWER_ON, 1), history(unit)
     assert not unit.link.ask(WRITE_PARAMETER, struct.pack("<BI", DRIVE_LIMIT, 765_432))[0]
     stored = unit.board.parameters()
 
     def same(board):
-        board.store(stored)
+        board.store(stored)  # RAM is another
 
     again = Unit(same)
     payload = again.link.ask(READ_PARAMETER, struct.pack("<B", DRIVE_LIMIT))[1]
     assert struct.unpack_from("<I", payload, 2) == (765_432,), payload
     assert again.link.telemetry()["parameters"] == 0
+    for boots in range(2, 50):  # through both pages, and again
+        assert history(again) == (boots, boots // 3, BY_WATCHDOG if boots % 3 == 0 else POWER_ON, 1), history(again)
+        stored = again.board.parameters()
+        again = Unit(lambda board: (same(board), boots % 3 == 2 and board.tell_watchdog_reset()))
+    assert struct.unpack_from("<I", again.link.ask(READ_PARAMETER, struct.pack("<B", DRIVE_LIMIT))[1], 2) == (765_432,)
 
 
 def hung_service(unit):

@@ -3,7 +3,7 @@ const zlib = require('node:zlib');
 
 const version = 2;
 const kinds = {telemetry: 1, target: 2, readParameter: 3, writeParameter: 4, restart: 5, stop: 6,
-               fault: 7, confirm: 8};
+               fault: 7, confirm: 8, history: 17};
 const refused = 0xff;
 const answerBit = 0x80;
 

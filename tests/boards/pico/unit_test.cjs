@@ -97,7 +97,8 @@ function act() {
   pause(random(1000) * 5e-6);
 }
 
-// A unit that was never used is off, and its drive at zero.
+// A unit that was never used erases a page for its history first; then it is off, and its drive at zero.
+pause(0.06);
 const first = telemetry();
 assert.deepStrictEqual([first.state, first.parameters, first.amplitude], [states.off, 1, 0]);
 
@@ -152,6 +153,10 @@ const last = telemetry();
 assert.deepStrictEqual([last.state, last.fault, last.parameters, contact.amplitude],
                        [states.fault, faults.watchdogReset, 0, 0]);
 assert.strictEqual(ask(kinds.readParameter, [driveLimit, 1]).payload.readUInt32LE(2), 765432);
+
+const history = ask(kinds.history).payload;
+const [boots, , byWatchdog] = [0, 4, 8].map(at => history.readUInt32LE(at));
+assert.deepStrictEqual([boots, byWatchdog, history[20], history[21]], [2, 1, 2, 1], 'the history is not kept');
 
 let below = 0;
 const [median] = [...counts].sort(([a], [b]) => a - b).find(([, times]) => (below += times) * 2 >= controls);
