@@ -12,10 +12,10 @@ namespace {
 struct Record {
   KeptException exception;
   std::uint32_t check;  ///< of the exception; after power-on anything may stand here
-  std::uint32_t mark;   ///< that RAM was kept
 };
 
 [[gnu::section(".noinit")]] Record record;
+[[gnu::section(".noinit.mark")]] std::uint32_t mark;  ///< apart: in images that ask for it alone
 
 /// FNV-1a over the words. Out of line, for fewer bytes: it is needed three times.
 [[gnu::noinline]] std::uint32_t check_of(const KeptException& exception) {
@@ -36,8 +36,7 @@ bool is_whole() {
 /// Unless one is kept: what comes after the first one may be its consequence.
 void keep(const KeptException& exception) {
   if (!is_whole()) {
-    record.exception = exception;
-    record.check = check_of(exception);
+    record = {exception, check_of(exception)};
   }
 }
 
@@ -52,9 +51,9 @@ const KeptException* take_kept_exception() {
 }
 
 bool ram_was_kept() {
-  constexpr std::uint32_t mark = 0x5EA1ED3A;
-  const bool kept = record.mark == mark;
-  record.mark = mark;
+  constexpr std::uint32_t there = 0x5EA1ED3A;
+  const bool kept = mark == there;
+  mark = there;
   return kept;
 }
 
