@@ -194,6 +194,21 @@ TYPED_TEST(SensorlessObserverTest, FeelsNothingBelowTheSpeedOfTheSliding) {
   EXPECT_EQ(numeric::to_real(observer.mode().first), 0.0);
 }
 
+/// Friction no longer follows a mode of that size linearly.
+TYPED_TEST(SensorlessObserverTest, BelievesNoReadingOfAModeThatIsTooLarge) {
+  for (const bool large : {false, true}) {
+    auto nominal = parameters<TypeParam>(0.001);
+    nominal.linear = {scaled<TypeParam>(0.5), large ? -2 : 3};  // of a velocity of 0.225
+    SensorlessObserver<TypeParam> observer(nominal);
+    observer.predict(scaled<TypeParam>(0.9));
+    const Pair<TypeParam> before = observer.mode();
+    const TypeParam now = scaled<TypeParam>(0.9);
+    observer.observe(scaled<TypeParam>(0.3), scaled<TypeParam>(speed), {now, now, now},
+                     scaled<TypeParam>(0.5));
+    EXPECT_EQ(observer.mode().first == before.first, large);
+  }
+}
+
 /// A mode that no reading shows, and by which a feedback might keep the drive down for ever.
 TYPED_TEST(SensorlessObserverTest, ForgetsAModeThatNothingShows) {
   const auto nominal = parameters<TypeParam>(0.001);
