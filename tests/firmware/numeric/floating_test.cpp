@@ -49,7 +49,7 @@ TEST(WordProduct, OfHalvesIsTheRoundedWideProduct) {
     const std::int32_t b = words.next();
     if (a != INT32_MIN || b != INT32_MIN) {
       const std::int64_t wide = shift_right_rounded(std::int64_t{a} * b, 31);
-      ASSERT_EQ(product_of_halves(a, b), wide) << a << " * " << b;
+      ASSERT_EQ(rounded_q31_product_of_halves(a, b), wide) << a << " * " << b;
       ASSERT_EQ(rounded_q31_product(a, b), wide) << a << " * " << b;
     }
   }
