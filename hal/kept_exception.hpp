@@ -17,7 +17,7 @@ struct KeptException {
   std::uint32_t fault_address;      ///< BFAR or MMFAR, 0 where neither is valid; RISC-V: mtval
 };
 
-/// An image that calls this, once at the begin of its main (of hal/exception), keeps its exceptions: each one that it does not expect
+/// An image that calls this first in its main keeps its exceptions (hal/exception): each one that it does not expect
 /// calls shutdown() (hal/start/image_end.hpp), writes to .noinit, and goes on to take_exception(). An image that
 /// does not call it has none of this.
 /// @return the one that was kept before, until the next reset, at which it is gone; null: none was

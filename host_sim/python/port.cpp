@@ -131,6 +131,41 @@ class Port {
     return faults;
   }
 
+  std::optional<py::dict> exception() {
+    const auto result = answer<link::KeptException>(link::ReadException{});
+    const auto* told = std::get_if<link::KeptException>(&result);
+    if (told == nullptr) {
+      return std::nullopt;
+    }
+    py::dict exception;
+    exception["exception"] = told->exception;
+    exception["program_counter"] = told->program_counter;
+    exception["link_register"] = told->link_register;
+    exception["program_status"] = told->program_status;
+    exception["fault_status"] = told->fault_status;
+    exception["hard_fault_status"] = told->hard_fault_status;
+    exception["fault_address"] = told->fault_address;
+    return exception;
+  }
+
+  std::optional<py::dict> history() {
+    const auto result = answer<link::History>(link::ReadHistory{});
+    const auto* told = std::get_if<link::History>(&result);
+    if (told == nullptr) {
+      return std::nullopt;
+    }
+    py::dict history;
+    history["boots"] = told->boots;
+    history["cause"] = unit::cause_name(told->cause);
+    history["operation_s"] = told->seconds;
+    history["watchdog_resets"] = told->watchdog_resets;
+    history["exceptions"] = told->exceptions;
+    history["exception_boot"] =
+        told->exceptions != 0 ? std::optional(told->exception_boot) : std::nullopt;
+    history["saved"] = told->saved != 0;
+    return history;
+  }
+
   py::dict parameter(const std::string& name) {
     const std::size_t number = unit::parameter_named(name);
     const auto told =
@@ -290,6 +325,16 @@ void add_port(py::module_& module) {
       .def(
           "faults", &Port::faults,
           "faults(self)\n--\n\nThe last faults and the carrier periods in which they were found, the latest first.")
+      .def(
+          "exception", &Port::exception,
+          "exception(self)\n--\n\nThe exception of the processor that ended the run before the last reset, or with a "
+          "history the\nlast one ever: its number and what the registers held. None: there was none, or the image keeps "
+          "none.")
+      .def(
+          "history", &Port::history,
+          "history(self)\n--\n\nOver all resets: boots, the cause of the last one, operation_s, watchdog_resets, "
+          "exceptions,\nexception_boot, the number of the last boot after one, None without; and saved, whether the "
+          "flash\ntook it. None: the unit keeps no history.")
       .def(
           "parameter", &Port::parameter, py::arg("name"),
           "parameter(self, name)\n--\n\nIts value, its range and what was compiled in; of a force in newtons.")

@@ -30,6 +30,8 @@ std::string text_of(double value, link::ScaleUnit unit) {
              : output::plain_zero(fmt::format("{:.6g}", value)) + unit_name(unit).behind_number;
 }
 
+}  // namespace
+
 const char* cause_name(std::uint8_t cause) {
   switch (static_cast<hal::ResetCause>(cause)) {
     case hal::ResetCause::power_on:
@@ -43,8 +45,6 @@ const char* cause_name(std::uint8_t cause) {
   }
   return "a cause that is not known";
 }
-
-}  // namespace
 
 std::string decimal(std::uint32_t value, int places) {
   std::array<char, encoding::most_decimal_characters> text{};

@@ -46,6 +46,8 @@ std::string text_of(const link::ParameterValue& value, const UnitScales& scales)
 std::string text_of(const link::Telemetry& told, const UnitScales& scales);
 std::string text_of(const UnitScales& scales);
 std::string text_of(const link::Identity& told);
+/// Of a hal::ResetCause, as it follows "after".
+const char* cause_name(std::uint8_t cause);
 std::string text_of(const link::History& told);
 /// @param before  what it came before
 std::string text_of(const link::KeptException& told, const std::string& before);

@@ -96,6 +96,11 @@ def test_a_tare_under_load_is_refused(unit):
         unit.tare()
 
 
+def test_a_board_without_pages_for_it_keeps_no_history(unit):
+    assert unit.history() is None
+    assert unit.exception() is None
+
+
 def test_a_force_is_ordered_in_newtons(tmp_path):
     of_force = ("controller.target_friction_ratio=", "controller.target_friction_force_N=[[0.0, 0.01]]")
     with running(image_of_scene(tmp_path, *of_force)) as unit:
