@@ -3,6 +3,7 @@
 // Usage: node scene_test.cjs IMAGE.elf TRACE
 const assert = require('node:assert');
 const {Pico} = require('../../../hal/pico/emulated/pico.cjs');
+const {hold} = require('./clocks.cjs');
 const {readTrace} = require('./trace.cjs');
 
 const longestControl = 1900; // clocks from the carrier's interrupt to its end, of 2,200
@@ -43,8 +44,10 @@ pico.runWhile(() => clocks.length < trace.length);
 assert.strictEqual(pico.mcu.clkSys, 132e6);
 assert.ok(farthest <= 1 / 2048 + Math.PI / 2200, `an amplitude is off by ${farthest}`);
 const sorted = [...clocks].sort((a, b) => a - b);
+const median = sorted[sorted.length >> 1];
 const worst = sorted[sorted.length - 1];
 console.log(`${trace.length} periods: every command is the workstation's; control takes ${
-    sorted[sorted.length >> 1]} clocks in the median, ${worst} at most, of 2200; ` +
+    median} clocks in the median, ${worst} at most, of 2200; ` +
     `the bridge makes each amplitude within ${farthest.toFixed(5)}`);
 assert.ok(worst <= longestControl, `control takes ${worst} clocks`);
+hold(image, median, worst);

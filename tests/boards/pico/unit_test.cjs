@@ -7,6 +7,7 @@
 const assert = require('node:assert');
 const {Pico} = require('../../../hal/pico/emulated/pico.cjs');
 const {StandInContact} = require('../../../hal/pico/emulated/contact.cjs');
+const {hold} = require('./clocks.cjs');
 const {Link, kinds} = require('./link.cjs');
 
 const longestControl = 1900; // clocks from the carrier's interrupt to its end, of 2,200
@@ -163,3 +164,4 @@ const [median] = [...counts].sort(([a], [b]) => a - b).find(([, times]) => (belo
 console.log(`${controls} carrier periods, none late; ${tally.asked} requests answered, ${tally.refused} of ` +
     `them refused; control takes ${median} clocks in the median, ${worst} at most, of 2200`);
 assert.ok(worst <= longestControl, `control takes ${worst} clocks`);
+hold(image, '-', worst); // off in most of its periods, so the median says little
