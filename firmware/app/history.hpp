@@ -37,6 +37,7 @@ class UnitHistory {
   /// Waits until the boot is written down, or the flash has failed three times.
   /// @param flash               outlives this
   /// @param watchdog            fed meanwhile
+  /// @param cause               of the last reset
   /// @param exception           before the reset; null: none
   /// @param periods_per_second  of the unit's loop, at least 1
   template <class Watchdog>

@@ -138,9 +138,8 @@ class Fixed {
   friend constexpr Fixed operator*(Fixed a, Fixed b) {
     if constexpr (is_q31 && !has_wide_product) {
       // Of all products only this one leaves the range.
-      return a == b && a == lowest()
-                 ? beyond(false)
-                 : from_raw(rounded_q31_product_of_halves(a.raw_, b.raw_));
+      return a == b && a == lowest() ? beyond(false)
+                                     : from_raw(rounded_q31_product_of_halves(a.raw_, b.raw_));
     } else if constexpr (is_q31) {
       // Of all products only that of -1 and -1 leaves the range, and no other one gives -1.
       const auto raw = static_cast<Storage>(rounded_product(a, b));
@@ -173,7 +172,7 @@ class Fixed {
   static constexpr Wide rounded_product(Fixed a, Fixed b) {
     if constexpr (is_q31 && !has_wide_product) {
       return a == b && a == lowest() ? Wide{1} << FractionBits
-                                            : Wide{rounded_q31_product_of_halves(a.raw_, b.raw_)};
+                                     : Wide{rounded_q31_product_of_halves(a.raw_, b.raw_)};
     } else {
       return shift_right_rounded<Wide>(Wide{a.raw_} * Wide{b.raw_}, FractionBits);
     }
