@@ -158,7 +158,9 @@ template <class Flash, class = void>
 struct KeepsHistory : std::false_type {};
 template <class Flash>
 struct KeepsHistory<Flash, std::void_t<decltype(Flash::pages)>>
-    : std::bool_constant<Flash::pages == 4> {};
+    : std::bool_constant<Flash::pages == 4> {
+  static_assert(Flash::pages == 2 || Flash::pages == 4, "two pages, or four with a history");
+};
 
 }  // namespace detail
 

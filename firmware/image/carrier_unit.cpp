@@ -41,6 +41,7 @@ using History = app::HistoryOn<Hardware::Flash>;
 
 constexpr auto periods_per_second =
     static_cast<std::uint32_t>(1.0 / configuration::step_period_s + 0.5);
+static_assert(!History::kept || periods_per_second >= 1, "a history counts seconds");
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;

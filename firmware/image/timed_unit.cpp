@@ -50,13 +50,14 @@ static_assert(serves || !std::is_same_v<Answer, sonoglide::hal::BiasedDrive>,
 constexpr double period_s = sonoglide::hal::timed::loop_period_s<Hardware>(
     configuration::carrier_period_s, configuration::every_periods);
 
+using History = app::HistoryOn<Hardware::Flash>;
+
 constexpr auto periods_per_second = static_cast<std::uint32_t>(1.0 / period_s + 0.5);
+static_assert(!History::kept || periods_per_second >= 1, "a history counts seconds");
 
 constexpr app::FieldDesign<configuration::Parts> design(
     configuration::parameters, app::first_target(configuration::target_steps),
     configuration::design, configuration::full_scales, period_s, Hardware::host_timeout_ms);
-
-using History = app::HistoryOn<Hardware::Flash>;
 
 struct Product : app::Unnamed {
   static constexpr const char* board = SONOGLIDE_BOARD_NAME;

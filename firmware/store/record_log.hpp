@@ -13,8 +13,8 @@ namespace sonoglide::store {
 /// Keeps the last of many records of `Count` words in two flash pages.
 ///
 /// A record takes a slot of Count + 2 words: sequence number, the words, CRC-32 of a format word and of these. The
-/// next record is programmed into the next slot; behind the last one the other page is erased, which holds older
-/// records alone. If power fails during any erase or program, load() finds the old record or the new one, whole,
+/// next record is programmed into the next slot. When a page is full, the other one is erased; it holds only older
+/// records. If power fails during any erase or program, load() finds the old record or the new one, whole,
 /// but for a probability of 2^-32. The number of erases of each page is that of the records over twice the slots.
 ///
 /// @tparam Flash  see hal/board.hpp; not owned. At most 256 words of a page are used.

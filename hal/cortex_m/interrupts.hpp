@@ -45,7 +45,11 @@ constexpr std::size_t table_alignment() {
 
 alignas(table_alignment()) inline std::uint32_t vectors_in_memory[vectors];
 
-extern "C" const std::uint32_t vectors_end[];  ///< of the image, from sections.ld
+extern "C" {
+// Of the image, from sections.ld.
+extern const std::uint32_t vectors_begin[];
+extern const std::uint32_t vectors_end[];
+}
 
 inline void let_come(std::size_t number) {
   auto* const enable = reinterpret_cast<volatile std::uint32_t*>(0xE000E100);
@@ -67,8 +71,10 @@ inline void take_interrupt(std::size_t number, void (*handler)()) {
       static_cast<std::uintptr_t>(vector_table_offset));
   auto& vectors = detail::vectors_in_memory;
   if (old != vectors) {
+    // The table may be seen at another address than that at which it was linked.
+    const auto linked = static_cast<std::size_t>(detail::vectors_end - detail::vectors_begin);
     for (std::size_t i = 0; i < detail::vectors; ++i) {
-      vectors[i] = old[old + i < detail::vectors_end ? i : 3];  // the hard fault's
+      vectors[i] = old[i < linked ? i : 3];  // the hard fault's
     }
   }
   vectors[detail::exceptions_of_processor + number] =

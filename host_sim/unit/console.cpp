@@ -199,8 +199,10 @@ Console::Lines Console::log() {
 Console::Lines Console::history() {
   const auto result = unit_.ask<link::History>(link::ReadHistory{});
   const auto* history = std::get_if<link::History>(&result);
-  if (history == nullptr) {
-    return refuse("the unit keeps no history");
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    return refusal->reason == static_cast<std::uint8_t>(link::Reason::unknown_request)
+               ? refuse("the unit keeps no history")
+               : refuse(*refusal, 0);
   }
   Lines lines{text_of(*history)};
   const auto exception = unit_.ask<link::KeptException>(link::ReadException{});

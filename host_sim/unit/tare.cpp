@@ -66,7 +66,12 @@ class Taring {
       throw UnitRefusal(
           "see params and confirm them first");  // a saved offset would confirm them all
     }
-    if (static_cast<control::State>(told.state) != control::State::off) {
+    const auto state = static_cast<control::State>(told.state);
+    if (state == control::State::fault) {
+      throw UnitRefusal(fmt::format("the unit is in the fault {}: remove its cause, and stop",
+                                    app::fault_name(told.fault)));
+    }
+    if (state != control::State::off) {
       throw UnitRefusal("stop the drive first");
     }
     return told;
@@ -87,9 +92,9 @@ class Taring {
     const double floor_m_per_s =
         value(Parameter::speed_floor) * scales_[Quantity::sliding_velocity].value;
     if (speed_m_per_s > floor_m_per_s && std::abs(force.value) > least_load * friction_N) {
-      throw UnitRefusal(
-          fmt::format("the contact slides at {} under a friction of {}: lift it first",
-                      output::quantity(speed_m_per_s, "m/s"), output::quantity(force.value, "N")));
+      throw UnitRefusal(fmt::format(
+          "the contact slides at {} under a friction of {}: lift it, or let it stand still if it is lifted",
+          output::quantity(speed_m_per_s, "m/s"), output::quantity(force.value, "N")));
     }
     if (force.standard_error > largest_standard_error * friction_N) {
       throw UnitRefusal(

@@ -46,6 +46,10 @@ function(sonoglide_timed_board name)
     endif()
     get_filename_component(controller "${folder}" NAME)
     set(target ${controller}_unit)
+    if(TARGET ${target})
+      message(FATAL_ERROR "sonoglide_timed_board(${name}): there is a target ${target} already, of another board or a "
+        "folder of the same name: give ${folder} another name")
+    endif()
     add_executable(${target} "${sonoglide_DATA_FOLDER}/firmware/image/timed_unit.cpp"
       "${sonoglide_DATA_FOLDER}/hal/exception/kept_exception.cpp" ${BOARD_SOURCES})
     target_include_directories(${target} PRIVATE "${folder}" "${CMAKE_CURRENT_SOURCE_DIR}")
