@@ -163,7 +163,7 @@ TEST(ParameterIdentity, StaysWhatItWas) {
   for (std::size_t i = 0; i < parameter_count; ++i) {
     EXPECT_EQ(parameter_identities[i], identities[i]) << parameter_labels[i].name;
   }
-  EXPECT_EQ(field_design.design(), 0xF250E062U);
+  EXPECT_EQ(field_design.design(), 0xD3C23505U);
 }
 
 TYPED_TEST(FieldParametersTest, PresetsAndTheEndsOfRangesAreAllowed) {

@@ -611,16 +611,24 @@ class LiftedBoard : public app::TimedBoard {
 };
 using LiftedConsole = ConsoleOf<RatioDesign, LiftedBoard>;
 
-// The unit shows what its present offset and gain make of the reading.
+// The unit shows what its present offset and gain make of the reading, to 2.5e-5 of full scale.
 TEST_F(LiftedConsole, ATareSavesTheOffsetThatTheSensorHas) {
+  constexpr double error_N = 2.5e-5 * 0.04;
+  const std::regex tared("force_offset was (.+) N, is (.+) N, standard error 0 N; saved");
   ask("set force_gain 0.9");
   ask("set force_offset -0.002");
-  EXPECT_EQ(line_of("tare"), "force_offset was -0.002 N, is 0.0012 N, standard error 0 N; saved");
-  EXPECT_EQ(line_of("params force_offset"),
-            "force_offset 0.0012, compiled in 0; allowed is -0.01 to 0.01 N");
-  EXPECT_EQ(line_of("tare"), "force_offset was 0.0012 N, is 0.0012 N, standard error 0 N; saved");
-  served_.board().offset = -0.2;
-  EXPECT_EQ(line_of("tare"), "force_offset was 0.0012 N, is -0.008 N, standard error 0 N; saved");
+  double before_N = -0.002;
+  for (const double offset : {0.03, 0.03, -0.2}) {
+    served_.board().offset = offset;
+    const std::string line = line_of("tare");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_match(line, found, tared)) << line;
+    EXPECT_EQ(std::stod(found[1]), before_N);
+    before_N = std::stod(found[2]);
+    EXPECT_NEAR(before_N, 0.04 * offset, error_N);
+    EXPECT_EQ(line_of("params force_offset"),
+              "force_offset " + found[2].str() + ", compiled in 0; allowed is -0.01 to 0.01 N");
+  }
   EXPECT_EQ(console_.refused(), 0U);
 }
 
