@@ -89,12 +89,13 @@ class Port {
   }
 
   void set_target(double target) {
-    ask<link::TargetSet>(link::SetTarget{count_of(target)}, target_parameter);
+    ask<link::TargetSet>(link::SetTarget{count_of(target_parameter, target)}, target_parameter);
   }
   bool holds_force() const { return scales_.holds_force(); }
 
   py::dict step(double from, double to) {
-    const auto [step, response] = recorded_step(count_of(from), count_of(to));
+    const auto [step, response] =
+        recorded_step(count_of(target_parameter, from), count_of(target_parameter, to));
     py::dict told;
     told["settled_before"] = response.settled_before;
     const auto [state, limit, fault, settling] = unit::names_of_codes(response.end_codes);
@@ -182,8 +183,7 @@ class Port {
     const std::size_t number = unit::parameter_named(name);
     link::WriteParameter request{};
     request.parameter = static_cast<std::uint8_t>(number);
-    request.value =
-        number < app::parameter_count ? scales_.count_of_parameter(number, value) : UINT32_MAX;
+    request.value = number < app::parameter_count ? count_of(number, value) : UINT32_MAX;
     ask<link::ParameterWritten>(request, number, unit::longest_save);
   }
 
@@ -198,8 +198,19 @@ class Port {
   }
 
  private:
-  std::uint32_t count_of(double target) const {
-    return scales_.count_of_parameter(target_parameter, target);
+  /// The nearest; but half a period is none, and next to nothing is not nothing.
+  /// @throws std::invalid_argument
+  std::uint32_t count_of(std::size_t parameter, double value) const {
+    const app::ParameterLabel& label = parameter_labels[parameter];
+    if (label.decimal_places == 0 && value != std::floor(value)) {
+      throw std::invalid_argument(fmt::format("{}: {} is no whole number", label.name, value));
+    }
+    const std::uint32_t count = scales_.count_of_parameter(parameter, value);
+    if (count == 0 && value != 0.0) {
+      throw std::invalid_argument(
+          fmt::format("{}: {} is less than the unit can tell from 0", label.name, value));
+    }
+    return count;
   }
 
   std::pair<unit::RecordedStep, unit::StepResponse> recorded_step(std::uint32_t from,

@@ -69,7 +69,8 @@ StepResponse step_response(const RecordedStep& step, const UnitScales& scales) {
                         step.settled_before,
                         trace.records.back().codes};
   const double step_N = after.mean_N - before.mean_N;
-  if (response.ripple_N < band * std::abs(step_N)) {
+  const double code_N = scales.value_of(link::Quantity::friction_force, 1);
+  if (std::max(response.ripple_N, code_N) < band * std::abs(step_N)) {
     std::vector<double> progress;
     std::transform(trigger, force_N.end(), std::back_inserter(progress),
                    [&](double each_N) { return (each_N - before.mean_N) / step_N; });
@@ -104,6 +105,10 @@ std::string remarks(const StepResponse& response) {
 
 std::string text_of(const StepResponse& response) {
   const auto force = [](double force_N) { return output::quantity(force_N, "N"); };
+  if (!response.course && force(response.before_N) == force(response.after_N)) {
+    return fmt::format("the friction force stays at {}, ripple {}{}", force(response.after_N),
+                       force(response.ripple_N), remarks(response));
+  }
   return fmt::format("the friction force goes from {} to {}, ripple {}{}{}",
                      force(response.before_N), force(response.after_N), force(response.ripple_N),
                      response.course ? "; " + course_text(*response.course)

@@ -96,6 +96,17 @@ def test_a_tare_under_load_is_refused(unit):
         unit.tare()
 
 
+def test_what_is_no_count_of_a_parameter_is_refused(unit):
+    for name, value, why in (("start_on_power", 0.5, "no whole number"), ("host_timeout", 4e-4, "less than"),
+                             ("stuck_periods", 12.5, "no whole number"), ("force_offset", 1e-12, "less than")):
+        with pytest.raises(ValueError, match=f"{name}: {value:g} is {why}"):
+            unit.set_parameter(name, value)
+    with pytest.raises(ValueError, match="target: -1e-07 is less than"):
+        unit.set_target(-1e-7)
+    unit.set_parameter("force_gain", 1.0 / 1.1)
+    assert unit.parameter("force_gain")["value"] == 0.909091
+
+
 def test_a_board_without_pages_for_it_keeps_no_history(unit):
     assert unit.history() is None
     assert unit.exception() is None
