@@ -28,6 +28,7 @@ enum class Parameter : std::uint8_t {
 inline constexpr std::size_t parameter_count = 11;
 
 /// How a parameter is called and counted.
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): an aggregate, whose first three are always given
 struct ParameterLabel {
   const char* name;
   const char* unit;             ///< as it stands after a number: " s", or nothing
