@@ -2,17 +2,15 @@
 // what they are in main; then it gives them other values, which a reset finds, and ends the line.
 #include SONOGLIDE_BOARD_HEADER
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
-#include "firmware/encoding/decimal.hpp"
 #include "hal/start/begin_reset.hpp"
+#include "send_number.hpp"
 
 namespace {
 
 using Hardware = SONOGLIDE_BOARD_CLASS;
-namespace encoding = sonoglide::encoding;
+using sonoglide::image_test::send;
 
 struct Found {
   std::uint32_t resets;  ///< any number after power-on
@@ -22,16 +20,6 @@ struct Found {
 [[gnu::section(".noinit")]] volatile Found found;
 volatile std::uint32_t filled = 1001;
 volatile std::uint32_t cleared;
-
-void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
-  std::array<char, encoding::most_decimal_characters + 1> text{};
-  const std::size_t size = encoding::write_decimal(number, 0, text.data());
-  text[size] = end;
-  for (std::size_t i = 0; i <= size; ++i) {
-    while (!bytes.send(static_cast<std::uint8_t>(text[i]))) {
-    }
-  }
-}
 
 }  // namespace
 

@@ -2,46 +2,29 @@
 // exception handler leaves of the drive, and after a reset at the exception that was kept.
 #include SONOGLIDE_BOARD_HEADER
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "controller_configuration.hpp"
 #include "firmware/app/supervisor.hpp"
 #include "firmware/app/timed_loop.hpp"
-#include "firmware/encoding/decimal.hpp"
 #include "hal/kept_exception.hpp"
 #include "hal/no_watchdog.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/timed/drive_register.hpp"
+#include "send_number.hpp"
 
 namespace {
 
 using Hardware = SONOGLIDE_BOARD_CLASS;
+using sonoglide::image_test::send;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
-namespace encoding = sonoglide::encoding;
 
 constexpr double period_ticks = sonoglide::hal::timed::loop_period_s<Hardware>(
                                     configuration::carrier_period_s, configuration::every_periods) *
                                     Hardware::Board::clock_hz +
                                 0.5;
 constexpr int settled = 300;  // carrier periods
-
-void send(Hardware::ByteLink& bytes, char character) {
-  while (!bytes.send(static_cast<std::uint8_t>(character))) {
-  }
-}
-
-/// And a character after it.
-void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
-  std::array<char, encoding::most_decimal_characters> text{};
-  const std::size_t size = encoding::write_decimal(number, 0, text.data());
-  for (std::size_t i = 0; i < size; ++i) {
-    send(bytes, text[i]);
-  }
-  send(bytes, end);
-}
 
 /// Nothing but an instruction that there is not; in RAM.
 [[gnu::naked, gnu::noinline, gnu::section(".ramfunc")]] void trap() {

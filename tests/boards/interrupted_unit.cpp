@@ -11,16 +11,16 @@
 #include "controller_configuration.hpp"
 #include "firmware/app/commanded_supervisor.hpp"
 #include "firmware/app/field_parameters.hpp"
-#include "firmware/encoding/decimal.hpp"
 #include "hal/cortex_m/sys_tick.hpp"
 #include "hal/timed/board.hpp"
+#include "send_number.hpp"
 
 namespace {
 
 using Hardware = SONOGLIDE_BOARD_CLASS;
+using sonoglide::image_test::send;
 namespace app = sonoglide::app;
 namespace configuration = app::configuration;
-namespace encoding = sonoglide::encoding;
 namespace hal = sonoglide::hal;
 
 constexpr app::FieldDesign<configuration::Parts> design(
@@ -206,16 +206,6 @@ void sort_costs() {
       const std::uint32_t cost = costs[k];
       costs[k] = costs[k - 1];
       costs[k - 1] = cost;
-    }
-  }
-}
-
-void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
-  std::array<char, encoding::most_decimal_characters + 1> text{};
-  const std::size_t size = encoding::write_decimal(number, 0, text.data());
-  text[size] = end;
-  for (std::size_t i = 0; i <= size; ++i) {
-    while (!bytes.send(static_cast<std::uint8_t>(text[i]))) {
     }
   }
 }

@@ -445,11 +445,11 @@ TEST_P(TimedUnit, TellsItsHostOfAnExceptionBeforeTheReset) {
             "fault address 0x40000001");
 }
 
-TEST(TimedHistory, OfABoardWhoseFlashTheEmulatorHasIsKeptOverResets) {
-  if (!is_tested("microbit")) {
-    GTEST_SKIP();
-  }
-  Terminal terminal(emulate("microbit", "target_step_timed", 6));
+/// Of the board whose flash the emulator has.
+class TimedHistory : public testing::TestWithParam<const char*> {};
+
+TEST_P(TimedHistory, IsKeptOverResets) {
+  Terminal terminal(emulate(GetParam(), "target_step_timed", 6));
   terminal.connect();
   EXPECT_EQ(terminal.type("history").find("boot 1, after power-on; in operation 0 h 0 min "), 0U);
   for (int boot = 2; boot < 5; ++boot) {
@@ -484,6 +484,9 @@ std::vector<Board> tested(std::vector<Board> all) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, TimedUnit, testing::ValuesIn(tested(timed_boards)),
+                         named_after_its_board);
+
+INSTANTIATE_TEST_SUITE_P(Boards, TimedHistory, testing::ValuesIn(tested<const char*>({"microbit"})),
                          named_after_its_board);
 
 /// The emulator is to end instead of resetting its board.

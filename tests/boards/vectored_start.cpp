@@ -3,19 +3,18 @@
 // that was kept, go out in a line.
 #include SONOGLIDE_BOARD_HEADER
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/encoding/decimal.hpp"
 #include "hal/cortex_m/interrupts.hpp"
 #include "hal/kept_exception.hpp"
+#include "send_number.hpp"
 
 namespace {
 
 using Hardware = SONOGLIDE_BOARD_CLASS;
+using sonoglide::image_test::send;
 namespace cortex_m = sonoglide::hal::cortex_m;
-namespace encoding = sonoglide::encoding;
 
 volatile std::uint32_t came;  // a decimal digit for each, in the order in which they came
 
@@ -28,16 +27,6 @@ void request(std::size_t number) {
   auto* const pending = reinterpret_cast<volatile std::uint32_t*>(0xE000E200);
   pending[number / 32] = 1U << (number % 32);
   asm volatile("dsb \n isb \n");
-}
-
-void send(Hardware::ByteLink& bytes, std::uint32_t number, char end) {
-  std::array<char, encoding::most_decimal_characters + 1> text{};
-  const std::size_t size = encoding::write_decimal(number, 0, text.data());
-  text[size] = end;
-  for (std::size_t i = 0; i <= size; ++i) {
-    while (!bytes.send(static_cast<std::uint8_t>(text[i]))) {
-    }
-  }
 }
 
 }  // namespace
