@@ -14,7 +14,7 @@ namespace sonoglide::app {
 /// Counts resets and the time in operation, and keeps the last exception, in the third and fourth page of a flash.
 ///
 /// A reset is written down when this is made, before the drive. The time is written down with it, and after a stop
-/// if a minute has passed since: what a unit without a stop has run until its power is cut is not counted.
+/// if a minute has passed since: what a unit has run from its last stop until a reset is not counted.
 template <class Flash>
 class UnitHistory {
   static constexpr std::size_t exception_words = 7;

@@ -133,9 +133,8 @@ class Port {
   }
 
   std::optional<py::dict> exception() {
-    const auto result = answer<link::KeptException>(link::ReadException{});
-    const auto* told = std::get_if<link::KeptException>(&result);
-    if (told == nullptr) {
+    const auto told = ask_if_kept<link::KeptException>(link::ReadException{});
+    if (!told) {
       return std::nullopt;
     }
     py::dict exception;
@@ -150,9 +149,8 @@ class Port {
   }
 
   std::optional<py::dict> history() {
-    const auto result = answer<link::History>(link::ReadHistory{});
-    const auto* told = std::get_if<link::History>(&result);
-    if (told == nullptr) {
+    const auto told = ask_if_kept<link::History>(link::ReadHistory{});
+    if (!told) {
       return std::nullopt;
     }
     py::dict history;
@@ -272,7 +270,24 @@ class Port {
   template <class Answer, class Request>
   Answer ask(const Request& request, std::size_t parameter = 0,
              std::chrono::milliseconds work = {}) {
-    const auto result = answer<Answer>(request, work);
+    return taken<Answer>(answer<Answer>(request, work), parameter);
+  }
+
+  /// None of what the image does not keep, or of which there has been none.
+  template <class Answer, class Request>
+  std::optional<Answer> ask_if_kept(const Request& request) {
+    const auto result = answer<Answer>(request);
+    if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+      const auto reason = static_cast<link::Reason>(refusal->reason);
+      if (reason == link::Reason::unknown_request || reason == link::Reason::no_such_fault) {
+        return std::nullopt;
+      }
+    }
+    return taken<Answer>(result, 0);
+  }
+
+  template <class Answer>
+  Answer taken(const unit::UnitLink::Result<Answer>& result, std::size_t parameter) const {
     if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
       const std::string words = unit::words_of(*refusal, parameter, scales_);
       const auto reason = static_cast<link::Reason>(refusal->reason);

@@ -83,6 +83,12 @@ TEST(StepResponse, WhatTheRippleHidesHasNoCourse) {
   EXPECT_NE(text_of(hidden).find(", which hides the course of this step"), std::string::npos);
 }
 
+TEST(StepResponse, AForceThatStaysHasNoCourse) {
+  const auto response = step_response(step_along(2000, [](double) { return 0.0; }), scales);
+  EXPECT_FALSE(response.course);
+  EXPECT_EQ(text_of(response), "the friction force stays at 10 mN, ripple 0 N");
+}
+
 TEST(StepResponse, WhatTheTraceIsTooShortForIsSaid) {
   // Its last quarter begins 6 % below the level that is its mean, and ripples by less than 5 %.
   const auto slow = [](double t_s) { return t_s < 280 * step_s ? 0.92 : 1.0; };
