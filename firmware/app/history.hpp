@@ -45,12 +45,14 @@ class UnitHistory {
                                            const hal::KeptException* exception,
                                            std::uint32_t periods_per_second)
       : log_(flash, 2), cause_(cause), periods_per_second_(periods_per_second) {
-    log_.load(record_);
+    if (log_.load(record_) == store::Origin::damaged) {
+      record_[boots] = began_anew_bit;
+    }
     ++record_[boots];
     record_[watchdog_resets] += cause == hal::ResetCause::watchdog ? 1U : 0U;
     if (exception != nullptr) {
       ++record_[exceptions];
-      record_[exception_boot] = record_[boots];
+      record_[exception_boot] = (*this)[boots];
       note(*exception);
     }
     write_down(watchdog);
@@ -59,7 +61,11 @@ class UnitHistory {
   Pointer pointer() { return this; }
 
   hal::ResetCause cause() const { return cause_; }
-  std::uint32_t operator[](Count place) const { return record_[place]; }
+  std::uint32_t operator[](Count place) const {
+    return place == boots ? record_[boots] & ~began_anew_bit : record_[place];
+  }
+  /// Before the first boot of this history something stood in its pages that could not be read.
+  bool began_anew() const { return (record_[boots] & began_anew_bit) != 0; }
   /// The last save that ended has succeeded, so that a reset finds the record.
   bool saved() const { return saved_; }
 
@@ -94,7 +100,8 @@ class UnitHistory {
   }
 
  private:
-  static constexpr std::uint32_t least_seconds = 60;  ///< from one save to the next
+  static constexpr std::uint32_t least_seconds = 60;         ///< from one save to the next
+  static constexpr std::uint32_t began_anew_bit = 1U << 31;  ///< beside the boots
 
   void note(const hal::KeptException& exception) {
     const std::uint32_t words[exception_words] = {

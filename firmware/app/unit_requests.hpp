@@ -333,7 +333,8 @@ class UnitRequests {
                          history[history.watchdog_resets], history[history.exceptions],
                          history[history.exception_boot],
                          static_cast<std::uint8_t>(history.cause()),
-                         static_cast<std::uint8_t>(history.saved() ? 1 : 0)});
+                         static_cast<std::uint8_t>(history.saved() ? 1 : 0),
+                         static_cast<std::uint8_t>(history.began_anew() ? 1 : 0)});
   }
 
   void carry_out(const link::ArmTrace& request) {

@@ -301,8 +301,9 @@ struct History {
   std::uint32_t watchdog_resets;
   std::uint32_t exceptions;
   std::uint32_t exception_boot;
-  std::uint8_t cause;  ///< hal::ResetCause of the last reset
-  std::uint8_t saved;  ///< 1: written down
+  std::uint8_t cause;       ///< hal::ResetCause of the last reset
+  std::uint8_t saved;       ///< 1: written down
+  std::uint8_t began_anew;  ///< 1: the history before it could not be read
 
   template <class Message, class Visitor>
   static constexpr void fields(Message& message, Visitor&& visit) {
@@ -313,6 +314,7 @@ struct History {
     visit(message.exception_boot);
     visit(message.cause);
     visit(message.saved);
+    visit(message.began_anew);
   }
 };
 

@@ -37,8 +37,8 @@ class RecordLog {
   // Cold and out of line, as all that is not control: for fewer bytes, not for speed.
   /// Finds the newest whole record.
   /// @param record  as it was where there is none
-  /// @return whether there is one
-  [[gnu::cold, gnu::noinline]] bool load(Record& record) {
+  /// @return stored; blank; or damaged: something stands there, and no whole record
+  [[gnu::cold, gnu::noinline]] Origin load(Record& record) {
     bool found = false;
     std::size_t newest = 0;
     for (std::size_t i = 0; i < 2 * slots; ++i) {
@@ -57,7 +57,7 @@ class RecordLog {
     next_ = found ? first_blank_after(newest) : 0;
     erases_ = next_ % slots == 0;
     ++sequence_;
-    return found;
+    return found ? Origin::stored : all_blank() ? Origin::blank : Origin::damaged;
   }
 
   /// Begins to save a record; load() must have been called. Does nothing while one is being saved.
@@ -133,6 +133,14 @@ class RecordLog {
       }
     }
     return true;
+  }
+
+  bool all_blank() const {
+    std::size_t i = 0;
+    while (i < 2 * slots && is_blank(i)) {
+      ++i;
+    }
+    return i == 2 * slots;
   }
 
   /// Behind every slot of its page in which something stands; the first of the other page where that is full.

@@ -162,6 +162,7 @@ class Port {
     history["exception_boot"] =
         told->exceptions != 0 ? std::optional(told->exception_boot) : std::nullopt;
     history["saved"] = told->saved != 0;
+    history["began_anew"] = told->began_anew != 0;
     return history;
   }
 
@@ -359,8 +360,9 @@ void add_port(py::module_& module) {
       .def(
           "history", &Port::history,
           "history(self)\n--\n\nOver all resets: boots, the cause of the last one, operation_s, watchdog_resets, "
-          "exceptions,\nexception_boot, the number of the last boot after one, None without; and saved, whether the "
-          "flash\ntook it. None: the unit keeps no history.")
+          "exceptions,\nexception_boot, the number of the last boot after one, None without; saved, whether the "
+          "flash\ntook it; and began_anew, whether the history before it could not be read. None: the unit keeps no "
+          "history.")
       .def(
           "parameter", &Port::parameter, py::arg("name"),
           "parameter(self, name)\n--\n\nIts value, its range and what was compiled in; of a force in newtons.")

@@ -187,9 +187,10 @@ std::string text_of(const link::Identity& told) {
 std::string text_of(const link::History& told) {
   return fmt::format(
       "boot {}, after {}; in operation {} h {} min {} s; boots after the watchdog {}, after an "
-      "exception {}{}",
+      "exception {}{}{}",
       told.boots, cause_name(told.cause), told.seconds / 3600, told.seconds / 60 % 60,
       told.seconds % 60, told.watchdog_resets, told.exceptions,
+      told.began_anew == 0 ? "" : "; began anew: the history before it could not be read",
       told.saved != 0 ? "" : "; not saved: the flash of the unit took nothing");
 }
 

@@ -131,7 +131,8 @@ def bad_conversions(unit):
 
 def history(unit):
     """Boots, watchdog resets, cause of the last one, and whether it is written down."""
-    boots, _, by_watchdog, _, _, cause, saved = struct.unpack("<5I2B", unit.link.ask(READ_HISTORY)[1])
+    boots, _, by_watchdog, _, _, cause, saved, anew = struct.unpack("<5I3B", unit.link.ask(READ_HISTORY)[1])
+    assert not anew, "the history began anew"
     return boots, by_watchdog, cause, saved
 
 

@@ -100,6 +100,7 @@ TEST(UnitHistoryTest, PowerThatIsCutWhileABootIsWrittenCostsThisBootAtMost) {
         EXPECT_TRUE(next.history[History::boots] == before + 1 ||
                     next.history[History::boots] == before + 2)
             << before << ", " << cut;
+        EXPECT_TRUE(before == 0 || !next.history.began_anew()) << before << ", " << cut;
         const Boot last(flash);
         EXPECT_EQ(last.history[History::boots], next.history[History::boots] + 1);
         EXPECT_FALSE(flash.misused());
@@ -195,6 +196,25 @@ TEST(UnitHistoryTest, AFlashThatTakesNothingIsToldAndKeepsNobodyWaiting) {
   EXPECT_FALSE(boot.history.saved());
 }
 
+TEST(UnitHistoryTest, ThatItBeganAnewIsToldFromThenOn) {
+  SimulatedFlash flash;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(Boot(flash).history.began_anew());
+  }
+  for (std::size_t page = 0; page < 2; ++page) {
+    for (std::uint32_t& word : flash.page(page)) {
+      word &= ~1U;
+    }
+  }
+  for (std::uint32_t i = 1; i < 20; ++i) {
+    const Boot boot(flash, i == 5 ? ResetCause::exception : ResetCause::reset,
+                    i == 5 ? &kept : nullptr);
+    EXPECT_TRUE(boot.history.began_anew());
+    EXPECT_EQ(boot.history[History::boots], i);
+    EXPECT_EQ(boot.history[History::exception_boot], i < 5 ? 0U : 5U);
+  }
+}
+
 struct ProductWithHistory : TestedProduct {
   static inline History* history = nullptr;
 };
@@ -237,6 +257,7 @@ TEST(UnitHistoryTest, IsToldToTheHostAndSavedAfterItsStop) {
   EXPECT_EQ(told.exception_boot, 1U);
   EXPECT_EQ(told.cause, static_cast<std::uint8_t>(ResetCause::exception));
   EXPECT_EQ(told.saved, 1);
+  EXPECT_EQ(told.began_anew, 0);
   link::KeptException exception{};
   ASSERT_TRUE(link::read(ask(link::ReadException{}), exception));
   EXPECT_EQ(exception.program_counter, kept.program_counter);

@@ -136,6 +136,7 @@ History history() {
   message.exception_boot = 17;
   message.cause = 2;
   message.saved = 1;
+  message.began_anew = 1;
   return message;
 }
 
@@ -200,7 +201,7 @@ TEST(MessageBytes, AreThoseOfTheReference) {
        "0004029010020301010a040302011513121103010261010201010101024001010640871442f600"},
       {frame_of(ReadHistory{}, 17), "000402111105c0fd70c500"},
       {frame_of(history(), 17),
-       "0004029111021201010604030201030101020201010211010106020190eebf0100"},
+       "0004029111021201010604030201030101020201010211010108020101b1f30a5500"},
       {frame_of(refusal(), 9), "000402ff09050403d103010440420f05a1e6393400"},
   };
   for (const auto& row : rows) {

@@ -36,6 +36,11 @@ Record loaded(app::SimulatedFlash& flash) {
   return result;
 }
 
+Origin origin(app::SimulatedFlash& flash) {
+  Record found{};
+  return Log(flash, 0).load(found);
+}
+
 Saving save(app::SimulatedFlash& flash, const Record& wanted) {
   Log log(flash, 0);
   Record old{};
@@ -61,10 +66,12 @@ app::SimulatedFlash used(std::uint32_t saves) {
 TEST(RecordLogTest, BlankFlashAndWhatIsNoneHoldNoRecord) {
   app::SimulatedFlash flash;
   EXPECT_EQ(loaded(flash), none);
+  EXPECT_EQ(origin(flash), Origin::blank);
   for (const std::uint32_t word : {0U, 0x534E4800U, 0x12345678U}) {
     flash.page(0).fill(word);
     flash.page(1).fill(word);
     EXPECT_EQ(loaded(flash), none);
+    EXPECT_EQ(origin(flash), Origin::damaged);
   }
   EXPECT_EQ(save(flash, record(5)), Saving::saved);  // erases first
   EXPECT_EQ(loaded(flash), record(5));
@@ -82,7 +89,7 @@ TEST(RecordLogTest, SavesOneAfterTheOtherWithoutAReset) {
   app::SimulatedFlash flash;
   Log log(flash, 0);
   Record found{};
-  EXPECT_FALSE(log.load(found));
+  EXPECT_EQ(log.load(found), Origin::blank);
   for (std::uint32_t i = 1; i < 100; ++i) {
     log.save(record(i));
     const int begin = flash.operations();
@@ -169,13 +176,22 @@ TEST(RecordLogTest, EverySingleBitThatFallsCostsItsRecordAlone) {
   }
 }
 
+TEST(RecordLogTest, OneBitThatHasFallenIsNoBlankFlash) {
+  for (std::size_t word = 0; word < 2 * Log::slots * (count + 2); ++word) {
+    app::SimulatedFlash flash;
+    constexpr std::size_t of_a_page = Log::slots * (count + 2);
+    flash.page(word / of_a_page)[word % of_a_page] ^= 1U << word % 32;
+    EXPECT_EQ(origin(flash), Origin::damaged) << word;
+  }
+}
+
 TEST(RecordLogTest, WornFlashIsReportedAndTheOldRecordStands) {
   for (std::uint32_t saves = 1; saves <= 2 * Log::slots; ++saves) {
     app::SimulatedFlash flash = used(saves);
     flash.wear_out();
     Log log(flash, 0);
     Record found{};
-    EXPECT_TRUE(log.load(found));
+    EXPECT_EQ(log.load(found), Origin::stored);
     for (int i = 0; i < 20; ++i) {
       log.save(record(9));
       Saving saving = Saving::busy;
