@@ -33,7 +33,8 @@ enum class UnitFault : std::uint8_t {
   parameters_lost,  ///< what is stored is damaged; a restart is refused
   parameters_of_other_design,  ///< what is stored was set under another; a restart is refused
   service_stalled,             ///< the service did not come round, so that no stop would be heard
-  external = 64,               ///< and the cause: the board's hardware has switched the drive off
+  image_damaged,  ///< the image in flash is not the one that was built; a restart is refused
+  external = 64,  ///< and the cause: the board's hardware has switched the drive off
 };
 
 /// Causes of UnitFault::external are 1 ... 31, by the board's own count.

@@ -7,6 +7,7 @@
 
 #include "firmware/app/commanded_supervisor.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/self_test.hpp"
 #include "firmware/link/scale_messages.hpp"
 #include "firmware/store/two_page_store.hpp"
 
@@ -19,6 +20,7 @@ enum class Answer : std::uint8_t {
   unknown_parameter,
   drive_not_stopped,
   parameters_not_confirmed,
+  self_test_failed,
 };
 
 /// Supervised controller, parameters and their store. Nothing here waits.
@@ -26,7 +28,7 @@ enum class Answer : std::uint8_t {
 /// At power-on it drives only if `start_on_power` is stored for this design. If the stored
 /// parameters are damaged or of another design, the unit takes only their limits (Inheritance) and
 /// waits in a fault that says so. It then refuses a restart until the parameters are confirmed or
-/// one of them is written.
+/// one of them is written. If its self test has failed, it waits likewise, and refuses every restart.
 ///
 /// It belongs to the service, except for its supervisor's control side (CommandedSupervisor), which may
 /// interrupt every call. What a request asks of the controller is an order; the next one may be given
@@ -37,8 +39,9 @@ enum class Answer : std::uint8_t {
 /// @tparam TraceRecords  steps that its trace keeps, 2 ... 65535; 0: it has no trace. A record takes 20 bytes,
 ///                       of a controller with a frequency or a bias 24
 /// @tparam Course        see CommandedSupervisor
+/// @tparam SelfTest      ImageTest, or NoSelfTest
 template <class PartsT, class Flash, template <class> class Word = std::atomic,
-          std::size_t TraceRecords = 0, class Course = OrderedTargets>
+          std::size_t TraceRecords = 0, class Course = OrderedTargets, class SelfTest = NoSelfTest>
 class Unit {
  public:
   using Design = FieldDesign<PartsT>;
@@ -46,15 +49,18 @@ class Unit {
                                          Word, TraceRecords, Course>;
 
   /// Takes the parameters from the store, or as compiled in where it holds none.
-  /// @param design  outlives the unit.
-  /// @param flash   holds the store; outlives the unit.
-  /// @param course  of the target, see course_of()
+  /// @param design     outlives the unit.
+  /// @param flash      holds the store; outlives the unit.
+  /// @param course     of the target, see course_of()
+  /// @param self_test  how it ended; none of a unit without one, so that it costs no argument
+  template <class... SelfTests>
   [[gnu::cold]] Unit(const FieldDesign<PartsT>& design, Flash& flash,
-                     const Course& course = Course())
+                     const Course& course = Course(), SelfTests... self_test)
       : design_(design),
         store_(flash, design.design()),
         values_(design.presets()),
         origin_(load()),
+        self_test_(self_test...),
         target_(value(Parameter::target)),
         supervisor_(design.controller_parameters(values_), design.designed(),
                     design.timeout_periods(values_), design.service_periods(), course,
@@ -83,6 +89,9 @@ class Unit {
   /// The drive begins afresh, from a stop, from a fault or from running.
   /// @param faults  that were known when the request came: a later one overtakes it
   Answer restart(std::uint32_t faults) {
+    if (!self_test_.passed()) {
+      return Answer::self_test_failed;
+    }
     if (!confirmed_) {
       return Answer::parameters_not_confirmed;
     }
@@ -214,7 +223,9 @@ class Unit {
   /// What the unit does at power-on.
   void begin() {
     confirmed_ = origin_ == store::Origin::stored || origin_ == store::Origin::blank;
-    if (!confirmed_) {
+    if (!self_test_.passed()) {
+      supervisor_.trip(UnitFault::image_damaged);
+    } else if (!confirmed_) {
       supervisor_.trip(origin_ == store::Origin::damaged ? UnitFault::parameters_lost
                                                          : UnitFault::parameters_of_other_design);
     } else if (value(Parameter::start_on_power) != 0) {
@@ -268,6 +279,7 @@ class Unit {
   Store store_;
   ParameterValues values_;
   store::Origin origin_;
+  [[no_unique_address]] SelfTest self_test_;
   bool confirmed_ = false;  ///< nothing speaks against the parameters, or somebody took them
   std::uint32_t target_;
   std::uint32_t ordered_target_ = target_;
@@ -277,5 +289,9 @@ class Unit {
   std::uint32_t save_periods_left_ = 0;
   Supervisor supervisor_;
 };
+
+template <class PartsT, class Flash, class Course, class SelfTest>
+Unit(const FieldDesign<PartsT>&, Flash&, const Course&, SelfTest)
+    -> Unit<PartsT, Flash, std::atomic, 0, Course, SelfTest>;
 
 }  // namespace sonoglide::app

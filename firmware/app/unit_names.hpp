@@ -53,6 +53,8 @@ constexpr const char* fault_name(std::uint8_t fault) {
       return "parameters_of_other_design";
     case UnitFault::service_stalled:
       return "service_stalled";
+    case UnitFault::image_damaged:
+      return "image_damaged";
     case UnitFault::external:
       break;
   }

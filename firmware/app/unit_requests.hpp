@@ -234,6 +234,7 @@ class UnitRequests {
         break;
       case Answer::drive_not_stopped:
       case Answer::parameters_not_confirmed:
+      case Answer::self_test_failed:
         refuse(request.kind, link::Reason::drive_not_stopped);
         break;
     }
@@ -266,10 +267,13 @@ class UnitRequests {
   }
 
   void carry_out(const link::Restart& request) {
-    if (unit_.restart(faults_) == Answer::taken) {
+    const Answer answer = unit_.restart(faults_);
+    if (answer == Answer::taken) {
       ordering_ = request.kind;
     } else {
-      refuse(request.kind, link::Reason::parameters_not_confirmed);
+      refuse(request.kind, answer == Answer::self_test_failed
+                               ? link::Reason::self_test_failed
+                               : link::Reason::parameters_not_confirmed);
     }
   }
 

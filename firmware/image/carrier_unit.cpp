@@ -9,12 +9,14 @@
 #include "firmware/app/history.hpp"
 #include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
+#include "firmware/app/self_test.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "firmware/image/carrier/carrier_board.hpp"
 #include "hal/kept_exception.hpp"
 #include "hal/reset_cause.hpp"
+#include "hal/start/stored_image.hpp"
 #include "hal/trace_records.hpp"
 
 namespace {
@@ -51,7 +53,7 @@ struct Product : app::Unnamed {
 
 using Course = decltype(app::course_of<CarrierBoard>(configuration::target_steps));
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
-                       sonoglide::hal::trace_records<Hardware>, Course>;
+                       sonoglide::hal::trace_records<Hardware>, Course, app::ImageTest>;
 using Service = app::LinkService<Unit, Hardware::ByteLink, 32, Product>;
 using Loop = app::TimedLoop<Unit::Supervisor, CarrierBoard, Hardware::Watchdog, Service>;
 
@@ -66,6 +68,7 @@ extern "C" void take_carrier() {
 // Whatever the carrier's interrupt does not do; a board whose fast memory is short keeps it elsewhere.
 [[gnu::section(".text.service")]] int main() {
   Product::exception = sonoglide::hal::take_kept_exception();
+  const app::ImageTest image_test(sonoglide::hal::stored_image());  // before the watchdog runs
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
@@ -75,7 +78,7 @@ extern "C" void take_carrier() {
   }
   History history(flash, watchdog, cause, Product::exception, periods_per_second);
   Product::history = history.pointer();
-  Unit unit(design, flash, app::course_of<CarrierBoard>(configuration::target_steps));
+  Unit unit(design, flash, app::course_of<CarrierBoard>(configuration::target_steps), image_test);
   Service service(unit, bytes);
   CarrierBoard board(ticks);
   app::tune(board, configuration::carrier_period_s);

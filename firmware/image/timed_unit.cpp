@@ -11,12 +11,14 @@
 #include "firmware/app/history.hpp"
 #include "firmware/app/identity.hpp"
 #include "firmware/app/link_service.hpp"
+#include "firmware/app/self_test.hpp"
 #include "firmware/app/sequence_lock.hpp"
 #include "firmware/app/timed_loop.hpp"
 #include "firmware/app/unit.hpp"
 #include "hal/kept_exception.hpp"
 #include "hal/reset_cause.hpp"
 #include "hal/serial_line.hpp"
+#include "hal/start/stored_image.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/trace_records.hpp"
 
@@ -69,7 +71,7 @@ using Course = decltype(app::course_of<Hardware::Board>(configuration::target_st
 
 /// Its processor is the only one.
 using Unit = app::Unit<configuration::Parts, Hardware::Flash, app::InterruptedWord,
-                       sonoglide::hal::trace_records<Hardware>, Course>;
+                       sonoglide::hal::trace_records<Hardware>, Course, app::ImageTest>;
 
 /// To the nearest tick.
 constexpr double period_ticks = period_s * Hardware::Board::clock_hz + 0.5;
@@ -98,6 +100,7 @@ Board make_board() {
 
 int main() {
   Product::exception = sonoglide::hal::take_kept_exception();
+  const app::ImageTest image_test(sonoglide::hal::stored_image());  // before the watchdog runs
   Hardware::ByteLink bytes;
   Hardware::Watchdog watchdog;
   Hardware::Flash flash;
@@ -107,7 +110,8 @@ int main() {
   }
   History history(flash, watchdog, cause, Product::exception, periods_per_second);
   Product::history = history.pointer();
-  Unit unit(design, flash, app::course_of<Hardware::Board>(configuration::target_steps));
+  Unit unit(design, flash, app::course_of<Hardware::Board>(configuration::target_steps),
+            image_test);
   app::LinkService<Unit, Hardware::ByteLink,
                    sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>
       service(unit, bytes);

@@ -124,7 +124,7 @@ struct ParameterWritten : WriteParameter {
 };
 
 /// The drive begins afresh, from a stop, from a fault or from running. Refused while parameters
-/// that were lost, or set under another design, are not confirmed.
+/// that were lost, or set under another design, are not confirmed, and after a self test that failed.
 struct Restart {
   static constexpr std::uint8_t kind = 0x05;
 
@@ -338,6 +338,7 @@ enum class Reason : std::uint8_t {
   parameters_not_confirmed,  ///< confirm them, or write one
   overtaken_by_fault,        ///< a fault came after the first byte of the request
   no_such_record,            ///< that many are there: highest; none before a trace is whole
+  self_test_failed,          ///< until a reset at which the unit passes it
 };
 
 /// Why a request was not carried out, with what would have been allowed.

@@ -93,6 +93,8 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter,
       return "see params, then confirm them or set one";
     case link::Reason::overtaken_by_fault:
       return "not done: a fault came first";
+    case link::Reason::self_test_failed:
+      return "the image in the unit's flash is damaged: load it again";
     case link::Reason::no_such_record:
     case link::Reason::unknown_request:
     case link::Reason::wrong_length:

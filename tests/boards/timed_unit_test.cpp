@@ -1,6 +1,7 @@
 // Units on their board's own timer, talked to by the host program over a serial
 // device. The emulator's time is that of its
 // instructions, so that whether a step is done in time does not depend on the machine.
+#include <elf.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,6 +10,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <ostream>
@@ -23,6 +26,7 @@
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/process/scratch_folder.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/console.hpp"
 #include "host_sim/unit/unit_link.hpp"
@@ -57,11 +61,20 @@ const std::vector<TimedBoard> timed_boards = {
     {"riscv32-virt", 5, 9, "blank", "blank"},
 };
 
-std::vector<std::string> emulate(const std::string& board, const std::string& image, int speed) {
-  std::vector<std::string> command = emulated::serial_emulator_command(
-      *emulated::find_board(board), SONOGLIDE_IMAGES "/" + board + "/bin/" + image + ".elf");
+std::string file_of(const std::string& board, const std::string& image) {
+  return SONOGLIDE_IMAGES "/" + board + "/bin/" + image + ".elf";
+}
+
+std::vector<std::string> emulate_file(const std::string& board, const std::string& file,
+                                      int speed) {
+  std::vector<std::string> command =
+      emulated::serial_emulator_command(*emulated::find_board(board), file);
   command.insert(command.end(), {"-icount", "shift=" + std::to_string(speed)});
   return command;
+}
+
+std::vector<std::string> emulate(const std::string& board, const std::string& image, int speed) {
+  return emulate_file(board, file_of(board, image), speed);
 }
 
 /// What an answer says after a word: of "drive" in "..., drive 480 N, ...", "480 N".
@@ -341,6 +354,61 @@ TEST_P(TimedUnit, AnOverrunTakesTheDriveAwayUntilARestart) {
     }
     EXPECT_EQ(log.back(), "faults since reset: " + std::to_string(faults + before));
     terminal.type("restart");
+  }
+}
+
+/// The bytes of an .elf file, and where in it those begin and end that are loaded into flash.
+struct LoadedFile {
+  std::string bytes;
+  std::size_t begin;
+  std::size_t end;
+};
+
+LoadedFile loaded_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  LoadedFile result{{std::istreambuf_iterator<char>(file), {}}, SIZE_MAX, 0};
+  Elf32_Ehdr header{};
+  std::memcpy(&header, result.bytes.data(), sizeof header);
+  for (std::size_t i = 0; i < header.e_phnum; ++i) {
+    Elf32_Phdr segment{};
+    std::memcpy(&segment, &result.bytes.at(header.e_phoff + i * header.e_phentsize),
+                sizeof segment);
+    if (segment.p_type == PT_LOAD && segment.p_filesz > 0) {
+      result.begin = std::min<std::size_t>(result.begin, segment.p_offset);
+      result.end = std::max<std::size_t>(result.end, segment.p_offset + segment.p_filesz);
+    }
+  }
+  return result;
+}
+
+TEST_P(TimedUnit, ABitThatHasFlippedInItsImageHoldsItOff) {
+  const LoadedFile whole = loaded_file(file_of(GetParam().name, "target_step_timed"));
+  constexpr std::size_t checksum_bytes = 8;
+  // None of them changes what runs before the test: the checksum, what is in front of it, a vector that there is not.
+  std::vector<std::size_t> places{whole.end - 1, whole.end - checksum_bytes - 1};
+  if (GetParam().name != std::string("riscv32-virt")) {
+    places.push_back(whole.begin + 7 * sizeof(std::uint32_t));
+  }
+  for (const std::size_t place : places) {
+    const process::ScratchFolder folder(testing::TempDir());
+    const std::string path = folder.path() / "unit.elf";
+    std::string bytes = whole.bytes;
+    bytes.at(place) = static_cast<char>(bytes[place] ^ 1);
+    std::ofstream(path, std::ios::binary) << bytes;
+    Terminal terminal(emulate_file(GetParam().name, path, GetParam().speed));
+    terminal.connect();
+    const std::string status = terminal.type("status");
+    EXPECT_EQ(said(status, "state"), "fault") << place;
+    EXPECT_EQ(said(status, "fault"), "image_damaged") << place;
+    EXPECT_EQ(terminal.type("log"), "period 0: image_damaged");
+    terminal.type("confirm");
+    for (const char* const order : {"restart", "stop", "restart"}) {
+      const std::string answer = terminal.type(order);
+      EXPECT_TRUE(order == std::string("stop") ||
+                  answer == "the image in the unit's flash is damaged: load it again")
+          << place << ": " << answer;
+      EXPECT_EQ(said(terminal.type("status"), "drive"), "0 N") << place;
+    }
   }
 }
 

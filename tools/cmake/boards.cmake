@@ -9,6 +9,8 @@
 # timer, with a link. After configure --plant there is also <name of FOLDER>_plant.elf, which needs
 # neither host nor hardware. A toolchain file without a board compiles the core alone.
 
+include(sonoglideChecksum)
+
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
 sonoglide_room(sonoglide_carrier_image firmware/image/carrier USES sonoglide_control)
@@ -129,6 +131,8 @@ function(sonoglide_carrier_board name)
       set(target ${controller}_${image})
       if(image STREQUAL begun)
         set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+      elseif(image STREQUAL unit)
+        sonoglide_image_checksum(${target})
       endif()
       # Measured: 8 % fewer clocks in a carrier period on a Cortex-M0+, 4 to 8 % fewer instructions on an M4F.
       target_compile_options(${target} PRIVATE
@@ -194,7 +198,9 @@ function(sonoglide_emulated_board name)
         USES sonoglide_emulated_board sonoglide_halt)
       foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
         get_filename_component(controller "${folder}" NAME)
-        if(NOT image STREQUAL timed)
+        if(image STREQUAL timed)
+          sonoglide_image_checksum(${controller}_timed)
+        else()
           set_target_properties(${controller}_${image} PROPERTIES EXCLUDE_FROM_ALL ON)
         endif()
       endforeach()

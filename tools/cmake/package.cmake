@@ -46,6 +46,7 @@ function(sonoglide_install_package)
     COMPATIBILITY SameMajorVersion ARCH_INDEPENDENT)
   install(FILES "${made}/sonoglideConfig.cmake" "${made}/sonoglideConfigVersion.cmake"
       "${PROJECT_SOURCE_DIR}/tools/cmake/sonoglideStart.cmake"
+      "${PROJECT_SOURCE_DIR}/tools/cmake/sonoglideChecksum.cmake"
     DESTINATION "${SONOGLIDE_PACKAGE_FOLDER}" COMPONENT core)
 
   set(pkg_config_folder "${CMAKE_INSTALL_DATADIR}/pkgconfig")

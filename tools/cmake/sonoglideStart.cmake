@@ -9,6 +9,8 @@ if(TARGET sonoglide::start)
   return()
 endif()
 
+include("${CMAKE_CURRENT_LIST_DIR}/sonoglideChecksum.cmake")
+
 add_library(sonoglide::start INTERFACE IMPORTED)
 target_sources(sonoglide::start INTERFACE
   "${sonoglide_DATA_FOLDER}/hal/start/fill_memory.cpp"
@@ -61,5 +63,6 @@ function(sonoglide_timed_board name)
     target_link_libraries(${target} PRIVATE sonoglide::app sonoglide::timed sonoglide::start)
     target_link_options(${target} PRIVATE "-T${memory}")
     set_target_properties(${target} PROPERTIES LINK_DEPENDS "${memory}")
+    sonoglide_image_checksum(${target})
   endforeach()
 endfunction()

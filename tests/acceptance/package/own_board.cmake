@@ -15,6 +15,8 @@ foreach(sonoglide PREFIX SOURCE)
   run("${CMAKE_COMMAND}" -G Ninja -S "${project}" -B "${build}" ${how})
   run("${CMAKE_COMMAND}" --build "${build}")
   expect("${output}" HAS "controller_unit.elf")
+  file(READ "${build}/controller_unit.elf" image HEX)
+  expect("${image}" HAS "63726300")  # what stands before the checksum that the build writes
 endforeach()
 
 # refused(<from> <to> <message>): the project with a change.

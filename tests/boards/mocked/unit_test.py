@@ -11,7 +11,7 @@ from machine import HARD_FAULT
 
 DRIVE_LIMIT = 1
 STATE_OFF, STATE_FAULT = 0, 4
-MISSING, SATURATED, STALLED, WATCHDOG_RESET = 17, 18, 34, 33
+MISSING, SATURATED, STALLED, WATCHDOG_RESET, IMAGE_DAMAGED = 17, 18, 34, 33, 38
 BY_LINE, BY_CHIP = 65, 66  # external_1, external_2
 POWER_ON, BY_WATCHDOG = 0, 2
 IN_MAIN = 400  # instructions between two steps
@@ -157,6 +157,22 @@ def parameters(unit):
     assert struct.unpack_from("<I", again.link.ask(READ_PARAMETER, struct.pack("<B", DRIVE_LIMIT))[1], 2) == (765_432,)
 
 
+def damaged_image():
+    """A bit that has flipped in flash, where nothing runs before the test: in the checksum, in front of it, and in a
+    vector that there is not."""
+    for symbol, offset in (("image_checksum", 4), ("image_checksum", -1), ("program_image", 28)):
+        def flip(board):
+            address = board.symbols[symbol] + offset
+            board.uc.mem_write(address, bytes([board.uc.mem_read(address, 1)[0] ^ 1]))
+        unit = Unit(flip)
+        unit.fails(IMAGE_DAMAGED)
+        assert unit.link.ask(RESTART)[0], "a damaged image starts"
+        assert not unit.link.ask(STOP)[0]
+        assert unit.link.ask(RESTART)[0], "a damaged image starts after a stop"
+        unit.periods(50)
+        assert not unit.board.driven()
+
+
 def hung_service(unit):
     unit.drive()
     while unit.board.driven():
@@ -188,5 +204,6 @@ if __name__ == "__main__":
     bad_conversions(served)
     parameters(served)
     hung_service(served)
+    damaged_image()
     fresh = Unit()
     exceptions(fresh)

@@ -20,10 +20,13 @@ namespace {
 using link::Reason;
 
 /// From reset to the next reset; the flash outlives it.
-class PoweredUnit {
+template <class UnitT>
+class PoweredUnitOf {
  public:
-  explicit PoweredUnit(SimulatedFlash& flash, const FieldDesign<Parts>& design = field_design)
-      : unit(with_power(flash, design), flash) {}
+  template <class... More>
+  explicit PoweredUnitOf(SimulatedFlash& flash, const FieldDesign<Parts>& design = field_design,
+                         const More&... more)
+      : unit(with_power(flash, design), flash, more...) {}
 
   /// As a host would, but without the link.
   void start(int periods = 300) {
@@ -87,7 +90,7 @@ class PoweredUnit {
     return {static_cast<std::uint8_t>(parameter), value};
   }
 
-  TestedUnit unit;
+  UnitT unit;
   TimedBoard board;
   CountingWatchdog watchdog;
   Wire wire;
@@ -101,12 +104,14 @@ class PoweredUnit {
   }
 
   /// Of one byte each way, so that every byte has a period of its own.
-  using Service = LinkService<TestedUnit, Wire, 1, TestedProduct>;
+  using Service = LinkService<UnitT, Wire, 1, TestedProduct>;
 
   Service service_{unit, wire};
-  TimedLoop<TestedUnit::Supervisor, TimedBoard, CountingWatchdog, Service> loop_{
+  TimedLoop<typename UnitT::Supervisor, TimedBoard, CountingWatchdog, Service> loop_{
       unit.supervisor(), board, watchdog, service_};
 };
+
+using PoweredUnit = PoweredUnitOf<TestedUnit>;
 
 constexpr auto off = static_cast<std::uint8_t>(control::State::off);
 constexpr auto running = static_cast<std::uint8_t>(control::State::running);
@@ -970,6 +975,49 @@ TEST(LinkServiceTest, AConfirmationThatCannotBeSavedHoldsUntilReset) {
     powered.ask<link::Restarted>(link::Restart{});
     EXPECT_EQ(powered.telemetry().state, running);
   }
+}
+
+struct KnownSelfTest {
+  bool passes = false;
+  bool passed() const { return passes; }
+};
+using SelfTestedUnit = Unit<Parts, SimulatedFlash, std::atomic, 0, OrderedTargets, KnownSelfTest>;
+
+TEST(LinkServiceTest, AfterASelfTestThatFailedNothingStartsTheDrive) {
+  SimulatedFlash flash = limited_flash();  // it starts by itself
+  PoweredUnitOf<SelfTestedUnit> powered(flash, field_design, OrderedTargets(), KnownSelfTest{});
+  const auto expect_refused = [&powered] {
+    expect_refusal(powered.answer_to(link::Restart{}), link::Restart::kind,
+                   Reason::self_test_failed, 0, 0);
+  };
+  powered.serve(300);
+  EXPECT_EQ(powered.telemetry().state, faulted);
+  EXPECT_EQ(powered.telemetry().fault, static_cast<std::uint8_t>(UnitFault::image_damaged));
+  EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).fault, powered.telemetry().fault);
+  expect_refused();
+  powered.ask<link::Confirmed>(link::Confirm{});
+  expect_refused();
+  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 500000));
+  expect_refused();
+  powered.ask<link::Stopped>(link::Stop{});
+  EXPECT_EQ(powered.telemetry().state, off);
+  expect_refused();
+  powered.ask<link::TargetSet>(link::SetTarget{600000});
+  powered.serve(300);
+  for (const std::int32_t amplitude : powered.board.in_force) {
+    ASSERT_EQ(amplitude, 0);
+  }
+}
+
+TEST(LinkServiceTest, AfterASelfTestThatItHasPassedAUnitDoesAsOneWithout) {
+  SimulatedFlash flash = limited_flash();
+  PoweredUnitOf<SelfTestedUnit> powered(flash, field_design, OrderedTargets(), KnownSelfTest{true});
+  powered.serve(300);
+  EXPECT_GT(powered.board.latest_drive().amplitude, 0);
+  powered.ask<link::Stopped>(link::Stop{});
+  powered.ask<link::Restarted>(link::Restart{});
+  powered.serve(300);
+  EXPECT_GT(powered.board.latest_drive().amplitude, 0);
 }
 
 /// Carrier periods of the preset, 0.1 s.

@@ -76,6 +76,7 @@ TEST(UnitCodes, OfFaultsAreThoseOfTheReference) {
                         {35, "parameters_lost"},
                         {36, "parameters_of_other_design"},
                         {37, "service_stalled"},
+                        {38, "image_damaged"},
                         {65, "external_1"},
                         {74, "external_10"},
                         {95, "external_31"}};
