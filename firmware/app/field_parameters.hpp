@@ -55,7 +55,7 @@ struct ParameterRange {
   }
 };
 
-/// ParameterLabel::identity of each parameter, computed before.
+/// At compile time: ParameterLabel::identity of each parameter.
 inline constexpr std::array<std::uint32_t, parameter_count> parameter_identities = [] {
   std::array<std::uint32_t, parameter_count> result{};
   for (std::size_t i = 0; i < parameter_count; ++i) {

@@ -16,6 +16,7 @@ namespace detail {
 struct ExternalNames {
   char of[last_external_cause + 1][sizeof "external_31"]{};
 
+  /// At compile time.
   constexpr ExternalNames() {
     constexpr char word[] = "external_";
     for (unsigned cause = 0; cause <= last_external_cause; ++cause) {

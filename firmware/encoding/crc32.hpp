@@ -9,6 +9,7 @@ namespace sonoglide::encoding {
 
 namespace detail {
 
+/// At compile time.
 constexpr std::array<std::uint32_t, 16> crc32_of_nibbles() {
   std::array<std::uint32_t, 16> table{};
   for (std::uint32_t nibble = 0; nibble < 16; ++nibble) {

@@ -16,6 +16,7 @@ inline constexpr BinaryConstant binary_pi{0x3, 0x243F6A88, 0x85A308D3, 0x13198A2
 inline constexpr BinaryConstant binary_ln2{0x0, 0xB17217F7, 0xD1CF79AB, 0xC9E3B398, 0x03F2F6AF};
 
 /// Sum of the bits of the constant from weight 2^top down, `count` of them; exact in Float.
+/// At compile time.
 template <class Float>
 constexpr Float bits_of(const BinaryConstant& constant, int top, int count) {
   Float sum = 0;
@@ -36,6 +37,7 @@ struct NearestConstant {
   Float rest;
 };
 
+/// At compile time.
 /// @param constant  its bits, the leading one first.
 /// @param top       weight of the constant's leading bit.
 template <class Float>

@@ -31,6 +31,7 @@ namespace sonoglide::numeric {
 template <std::size_t Terms, class Wide = std::int64_t>
 class FixedPolynomial {
  public:
+  /// At compile time: it takes double.
   /// @param coefficients   c[0] first.
   /// @param fraction_bits  of the result, which may use all of Wide.
   constexpr FixedPolynomial(const std::array<double, Terms>& coefficients, int fraction_bits) {
@@ -56,9 +57,11 @@ class FixedPolynomial {
  private:
   static constexpr int digits = std::numeric_limits<Wide>::digits / 2;
 
+  /// At compile time.
   static constexpr double abs_of(double x) { return x < 0.0 ? -x : x; }
 
   /// Fraction bits that leave a magnitude of up to `bound` below 2^digits.
+  /// At compile time.
   static constexpr int finest_format(double bound) {
     int bits = 0;
     while (bound * power_of_two<double>(bits + 1) < power_of_two<double>(digits)) {
@@ -75,6 +78,7 @@ namespace detail {
 
 /// (pi/4)^(first + 2k) (-1)^k / (first + 2k)!: the series of sin(pi/4 t) / t and cos(pi/4 t) in
 /// t^2.
+/// At compile time.
 template <std::size_t Terms>
 constexpr std::array<double, Terms> eighth_turn_series(int first) {
   constexpr double angle = pi<double>.value / 4.0;
@@ -89,6 +93,7 @@ constexpr std::array<double, Terms> eighth_turn_series(int first) {
 }
 
 /// exp(-1/2) / (2^k k!): the series of exp((w - 1) / 2) in w.
+/// At compile time.
 template <std::size_t Terms>
 constexpr std::array<double, Terms> centred_exponential_series() {
   std::array<double, Terms> result{};
@@ -101,6 +106,7 @@ constexpr std::array<double, Terms> centred_exponential_series() {
 }
 
 /// The series of asin(t / 2) / (pi t) in t^2.
+/// At compile time.
 template <std::size_t Terms>
 constexpr std::array<double, Terms> half_arcsine_series() {
   constexpr auto arcsine = arcsine_series<double, Terms - 1>();

@@ -28,6 +28,7 @@ inline constexpr bool is_double = std::is_same_v<Float, double>;
 
 /// (-1)^j / (first + 2 j)!, the Taylor series of sine (first = 3) and cosine (first = 4) after
 /// their leading terms, both in x^2. Every factorial in reach is exact in double.
+/// At compile time.
 template <class Float, std::size_t Terms>
 constexpr std::array<Float, Terms> alternating_factorials(int first, double sign) {
   std::array<Float, Terms> result{};
@@ -45,6 +46,7 @@ constexpr std::array<Float, Terms> alternating_factorials(int first, double sign
 }
 
 /// 1 / (j + 2)!, the Taylor series of the exponential after 1 + x.
+/// At compile time.
 template <class Float, std::size_t Terms>
 constexpr std::array<Float, Terms> exponential_series() {
   std::array<Float, Terms> result{};
@@ -57,6 +59,7 @@ constexpr std::array<Float, Terms> exponential_series() {
 }
 
 /// 2 / (2 j + 3), the series of log((1 + s) / (1 - s)) = 2 s + s^3 (...) in s^2.
+/// At compile time.
 template <class Float, std::size_t Terms>
 constexpr std::array<Float, Terms> logarithm_series() {
   std::array<Float, Terms> result{};
@@ -67,6 +70,7 @@ constexpr std::array<Float, Terms> logarithm_series() {
 }
 
 /// (2k)! / (4^k k!^2 (2k + 1)), k = j + 1, the Taylor series of the arcsine after x, in x^2.
+/// At compile time.
 template <class Float, std::size_t Terms>
 constexpr std::array<Float, Terms> arcsine_series() {
   std::array<Float, Terms> result{};

@@ -20,6 +20,7 @@ struct GaussTables {
 
   /// Integral, from the middle of [0, 1] to node i, of the polynomial that is 1 at node j and 0 at
   /// the other nodes; exact.
+  /// At compile time.
   constexpr double integral(std::size_t i, std::size_t j) const {
     double sum = 0.0;
     for (std::size_t q = 0; q < Count; ++q) {
@@ -34,6 +35,7 @@ struct GaussTables {
   }
 
   /// What a value at node j adds to the coefficient of the Legendre polynomial of that degree.
+  /// At compile time.
   constexpr double coefficient(int degree, std::size_t j) const {
     const double value = numeric::legendre(degree, 2.0 * rule.node[j] - 1.0).value;
     return (2 * degree + 1) * rule.weight[j] * value;
@@ -63,6 +65,7 @@ struct GaussNodes {
   OfPairs last_of_differences{};
   OfPairs last_but_one_of_sums{};
 
+  /// At compile time.
   constexpr GaussNodes() {
     constexpr detail::GaussTables<Count> tables;
     constexpr int degree = static_cast<int>(Count) - 1;

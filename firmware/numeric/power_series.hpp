@@ -12,6 +12,7 @@ namespace detail {
 
 inline constexpr std::size_t reciprocal_count = 64;
 
+/// At compile time.
 template <class Scalar>
 constexpr std::array<Scalar, reciprocal_count> make_reciprocals() {
   std::array<Scalar, reciprocal_count> table{};
