@@ -216,5 +216,31 @@ TEST(ExchangeTest, HandsOverTheMeanVelocityAndTheBias) {
   EXPECT_EQ(drive.bias, -(1 << 30));
 }
 
+TEST(ExchangeTest, ASampleOfTheVibrationHasAQualityOfItsOwn) {
+  hal::VibrationSample sample{};
+  sample.fresh = true;
+  sample.in_phase = -(1 << 29);
+  const auto quality = [&](bool fresh, bool at_rail) {
+    sample.vibration_fresh = fresh;
+    sample.vibration_at_rail = at_rail;
+    const auto measurement = measurement_of<float>(sample);
+    EXPECT_EQ(measurement.in_phase, -0.25F);
+    EXPECT_EQ(measurement.quality, control::Quality::good);
+    return measurement.vibration_quality;
+  };
+  EXPECT_EQ(quality(true, false), control::Quality::good);
+  EXPECT_EQ(quality(true, true), control::Quality::saturated);
+  EXPECT_EQ(quality(false, true), control::Quality::missing);
+}
+
+TEST(ExchangeTest, HandsOverTheFrequency) {
+  control::ResonantCommand<double> command{};
+  command.amplitude = 0.25;
+  command.frequency = -7;
+  const hal::ResonantDrive drive = drive_of(command);
+  EXPECT_EQ(drive.amplitude, 1 << 29);
+  EXPECT_EQ(drive.frequency, -7);
+}
+
 }  // namespace
 }  // namespace sonoglide::app::control_loop_test

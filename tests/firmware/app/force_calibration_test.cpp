@@ -65,5 +65,12 @@ TEST(ForceCalibration, AReadingAtTheRailStaysThere) {
   EXPECT_EQ(sample.friction_force, 1 << 29);
 }
 
+TEST(ForceCalibration, OfAUnitThatReadsNoForceLeavesItsSamplesAsTheyAre) {
+  hal::Sample sample{1 << 30, 1 << 20, false, true};
+  NoForceCalibration::of(1000, 500'000).apply(sample);
+  EXPECT_EQ(sample.friction_force, 1 << 30);
+  EXPECT_EQ(sample.sliding_velocity, 1 << 20);
+}
+
 }  // namespace
 }  // namespace sonoglide::app::force_calibration_test

@@ -1105,6 +1105,102 @@ TEST(LinkServiceTest, NothingIsWrittenOnTheRamp) {
   EXPECT_EQ(powered.unit.confirm(), Answer::drive_not_stopped);
 }
 
+// ---- Between the order of a request and the carrier period that takes it ----
+
+/// A unit whose service and carrier periods come when a test says so.
+class OrderedUnit : public testing::Test {
+ protected:
+  OrderedUnit() { EXPECT_EQ(unit_.restart(0), Answer::taken); }
+
+  template <class Request>
+  void ask(const Request& request) {
+    requests_.take(link::frame_of(request, 7), unit_.supervisor().faults().count());
+  }
+  void pass_period() { unit_.supervisor().step({1 << 30, 1 << 28, false, true}); }
+
+  static constexpr std::uint16_t last_stop = 8;
+
+  SimulatedFlash flash_;
+  TestedUnit unit_{field_design, flash_};
+  UnitRequests<TestedUnit, TestedProduct> requests_{unit_};
+};
+
+TEST_F(OrderedUnit, AnswersWhenThePeriodHasTakenTheOrder) {
+  pass_period();
+  ask(link::SetTarget{300000});
+  requests_.proceed(0);
+  EXPECT_TRUE(requests_.in_hand());
+  EXPECT_EQ(unit_.target(), 400000U);
+  pass_period();
+  requests_.proceed(0);
+  link::TargetSet set{};
+  ASSERT_TRUE(link::read(requests_.answer(), set));
+  EXPECT_EQ(set.target, 300000U);
+}
+
+TEST_F(OrderedUnit, AFaultOvertakesTheOrder) {
+  pass_period();
+  ask(link::SetTarget{300000});
+  unit_.supervisor().trip(UnitFault::overrun);
+  pass_period();
+  requests_.proceed(0);
+  expect_refusal(requests_.answer(), link::SetTarget::kind, Reason::overtaken_by_fault, 0, 0);
+  EXPECT_EQ(unit_.target(), 400000U);
+  EXPECT_FALSE(unit_.supervisor().driving());
+}
+
+TEST_F(OrderedUnit, AStopOvertakesTheOrder) {
+  pass_period();
+  ask(link::Restart{});
+  unit_.stop();
+  pass_period();
+  requests_.proceed(last_stop);
+  expect_refusal(requests_.answer(), link::Restart::kind, Reason::out_of_turn, last_stop,
+                 last_stop);
+  EXPECT_FALSE(unit_.supervisor().driving());
+}
+
+TEST_F(OrderedUnit, WhatIsSavedIsInForceWhateverStopComes) {
+  pass_period();
+  unit_.stop();
+  pass_period();
+  unit_.supervisor().publish();
+  ask(PoweredUnit::writing(Parameter::target, 300000));
+  for (int i = 0; i < 1000 && unit_.origin() != store::Origin::stored; ++i) {
+    requests_.proceed(0);
+  }
+  unit_.stop();
+  pass_period();
+  requests_.proceed(last_stop);
+  EXPECT_TRUE(requests_.in_hand());
+  pass_period();
+  requests_.proceed(last_stop);
+  link::ParameterWritten written{};
+  ASSERT_TRUE(link::read(requests_.answer(), written));
+  EXPECT_EQ(written.value, 300000U);
+  EXPECT_EQ(unit_.target(), 300000U);
+}
+
+TEST(UnitTest, ARecordOfItsDesignWithoutOneOfItsParametersIsDamaged) {
+  SimulatedFlash flash;
+  store::TwoPageStore<SimulatedFlash, parameter_count> pages(flash, field_design.design());
+  pages.load();
+  std::array<store::Entry, parameter_count> record{};
+  for (std::size_t i = 0; i < parameter_count; ++i) {
+    record[i] = {parameter_identities[i], field_design.range(i).preset};
+  }
+  const auto limit = static_cast<std::size_t>(Parameter::drive_limit);
+  record[limit].value = 250000;
+  record[static_cast<std::size_t>(Parameter::gain_scale)].identity ^= 1U;
+  pages.save(record);
+  while (pages.proceed() == store::Saving::busy) {
+  }
+  const TestedUnit unit(field_design, flash);
+  EXPECT_EQ(unit.origin(), store::Origin::damaged);
+  EXPECT_EQ(unit.value(limit), 250000U);
+  EXPECT_EQ(unit.value(Parameter::gain_scale), one_in_millionths);
+}
+
 RC_GTEST_PROP(LinkServiceTest, AnyRequestIsAnsweredAndNoneHarms, ()) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);

@@ -336,5 +336,32 @@ TYPED_TEST(TextureOf, GoesOnFromItsState) {
   EXPECT_TRUE(std::equal(again.targets.begin(), again.targets.end(), told.targets.begin() + 100));
 }
 
+/// An order of 0 is to follow it; the place moves under other targets all the same.
+TEST(TextureCourse, IsFollowedUnlessAnotherTargetIsOrdered) {
+  const Path path = path_of(0.25);
+  const float points[] = {0.1F, 0.3F};
+  const TextureTargets<float, EqualSteps, Period> targets{
+      {path.weight}, path.parameters, points, 2};
+  auto course = course_of<void>(targets);
+  EXPECT_EQ(first_target(targets), 0.0F);
+  Told told;
+  hal::Sample sample{};
+  sample.fresh = true;
+  sample.sliding_velocity = INT32_MAX;
+  const auto step = [&] {
+    course.move(told);
+    course.aim(told);
+    course.pass(sample, nobody);
+    return told.targets.size();
+  };
+  EXPECT_EQ(step(), 1U);
+  EXPECT_FALSE(course.takes(0.2F));
+  EXPECT_EQ(step(), 1U);
+  EXPECT_TRUE(course.takes(0.0F));
+  EXPECT_EQ(step(), 2U);
+  EXPECT_NEAR(told.targets.front(), 0.1, 1e-6);
+  EXPECT_NEAR(told.targets.back(), 0.3, 1e-6);  // two quarters on
+}
+
 }  // namespace
 }  // namespace sonoglide::app::texture_test

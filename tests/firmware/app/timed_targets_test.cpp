@@ -1,4 +1,4 @@
-// The targets of an image whose carrier periods change their length.
+// The targets of an image, whose carrier periods may change their length.
 #include "firmware/app/timed_targets.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <random>
 #include <vector>
+
+#include "firmware/app/target_schedule.hpp"
 
 namespace sonoglide::app::timed_targets_test {
 namespace {
@@ -64,6 +66,20 @@ TEST(TimedSchedule, SetsEachTargetWithTheFirstSampleAtItsTimeOrAfter) {
   EXPECT_EQ(advance(1000), 2U);  // 7 periods, the target is due a unit later
   EXPECT_EQ(advance(0), 3U);
   EXPECT_EQ(advance(0), 3U);
+  EXPECT_EQ(controller.targets, (std::vector<float>{0.2F, 0.3F, 0.4F}));
+  EXPECT_EQ(controller.targets.front(), first_target(targets));
+}
+
+TEST(TargetSchedule, SetsEachTargetFromItsPeriodOn) {
+  const TargetStep<float> steps[] = {{0, 0.2F}, {3, 0.3F}, {3, 0.4F}, {4, 0.5F}};
+  auto schedule = schedule_of(steps);
+  ToldController controller;
+  for (const std::size_t set : {1U, 1U, 1U, 3U, 4U, 4U}) {
+    schedule.advance(controller);
+    EXPECT_EQ(controller.targets.size(), set);
+  }
+  EXPECT_EQ(controller.targets, (std::vector<float>{0.2F, 0.3F, 0.4F, 0.5F}));
+  EXPECT_EQ(controller.targets.front(), first_target(steps));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "closed_loop.hpp"
+#include "firmware/control/force_sensing.hpp"
+#include "firmware/control/vibration/fed_forward.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::controller_states_test {
@@ -172,6 +174,70 @@ TYPED_TEST(ControllerStates, AnInterruptedCalibrationBeginsAnew) {
     EXPECT_EQ(loop.command().state, State::calibrating) << interruption;
     loop.step(velocity);
     EXPECT_EQ(loop.command().state, State::running) << interruption;
+  }
+}
+
+TYPED_TEST(ControllerStates, ARestIsAPeriodWithoutDrive) {
+  ClosedLoop<ShapedParts<TypeParam>> loop({});
+  loop.set_target(0.4);
+  loop.run(50);
+  this->expect_undriven(loop.controller.rest(), State::off, Limit::none, Fault::none);
+}
+
+/// Keeps the mean friction force that a mode of the vibration is told to expect.
+template <class S>
+struct ToldFriction : FedForward<S> {
+  using FedForward<S>::FedForward;
+  template <class Friction>
+  static void balance(const DriveCommand<S>& /*command*/, const Friction& friction) {
+    told = friction();
+  }
+  static inline S told{};
+};
+
+TYPED_TEST(ControllerStates, TheFrictionThatIsExpectedIsThatOfTheTargetOrUndrivenTheReading) {
+  using S = TypeParam;
+  using Told = ToldFriction<S>;
+  ClosedLoop<Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
+                   IntegralRegulator<S, longest_delay>, NoRelearning<S>, Told>>
+      loop({});
+  loop.controller.stop();
+  loop.answer(this->sample(0.125, 0.1));
+  EXPECT_EQ(Told::told, scaled<S>(0.125));
+  loop.controller.start();
+  loop.step();
+  EXPECT_NEAR(numeric::to_real(Told::told), 0.5, 1e-6);
+  loop.set_target(0.4);
+  loop.step();
+  EXPECT_NEAR(numeric::to_real(Told::told), 0.2, 1e-6);
+  loop.step(-0.1);
+  EXPECT_NEAR(numeric::to_real(Told::told), -0.2, 1e-6);
+  loop.answer(this->sample(0.125, 0.001));  // below the speed floor
+  EXPECT_EQ(Told::told, scaled<S>(0.125));
+}
+
+/// Nothing but the map tells it the drive.
+TYPED_TEST(ControllerStates, WithoutAForceSensorNoReadingOfTheForceMatters) {
+  using S = TypeParam;
+  using Blind = Parts<S, TrustedFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
+                      NoFeedback<S>, NoRelearning<S>, FedForward<S>, NoForceSensor>;
+  const Design design;
+  typename Controller<Blind>::Parameters all{};
+  all.friction_force = scaled<S>(design.friction_force);
+  all.smallest_friction = scaled<S>(design.smallest_friction);
+  all.speed_floor = scaled<S>(design.speed_floor);
+  all.standstill = {design.standstill_hold_periods, scaled<S>(design.standstill_fall)};
+  fill<S>(design, all.feedforward);
+  Controller<Blind> controller(all);
+  controller.start();
+  controller.set_target(scaled<S>(0.2));
+  for (int i = 0; i < 200; ++i) {
+    auto sample = this->sample(0.9 - 0.009 * i, 0.1);
+    sample.quality = i % 2 == 0 ? Quality::good : Quality::saturated;
+    const auto command = controller.step(sample);
+    ASSERT_EQ(command.state, State::running);
+    ASSERT_EQ(command.settling, Settling::pending);
+    ASSERT_NEAR(Contact{}.ratio(numeric::to_real(command.amplitude), 0.1), 0.4, 0.002);
   }
 }
 

@@ -103,5 +103,19 @@ TEST(CobsTest, TellsACutBlockFromAnEndAndFromAnIdleLine) {
   EXPECT_EQ(unstuffed({}).last, Event::idle);
 }
 
+TEST(CobsTest, ARecordHasBegunFromItsFirstCodeToItsDelimiter) {
+  CobsDecoder decoder;
+  std::uint8_t byte = 0;
+  EXPECT_FALSE(decoder.begun());
+  decoder.take(cobs_delimiter, byte);
+  EXPECT_FALSE(decoder.begun());
+  for (const int received : {2, 17, 1}) {
+    decoder.take(static_cast<std::uint8_t>(received), byte);
+    EXPECT_TRUE(decoder.begun());
+  }
+  decoder.take(cobs_delimiter, byte);
+  EXPECT_FALSE(decoder.begun());
+}
+
 }  // namespace
 }  // namespace sonoglide::encoding::cobs_test

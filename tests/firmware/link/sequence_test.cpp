@@ -50,5 +50,14 @@ TEST(SequenceWatchTest, KnowsFramesOutOfOrder) {
   EXPECT_EQ(watch.take(13), Turn::next);
 }
 
+TEST(SequenceWatchTest, OfAnotherSenderTakesWhateverComesFirst) {
+  SequenceWatch watch;
+  watch.take(1000);
+  ASSERT_EQ(watch.take(7), Turn::late);
+  watch.restart();
+  EXPECT_EQ(watch.take(7), Turn::next);
+  EXPECT_EQ(watch.take(8), Turn::next);
+}
+
 }  // namespace
 }  // namespace sonoglide::link::sequence_test

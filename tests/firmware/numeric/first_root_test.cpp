@@ -131,5 +131,16 @@ TEST(FirstRoot, OfAnyRoots) {
   }));
 }
 
+TEST(FirstRoot, WithoutAZeroAtTheBeginning) {
+  // -t^2 (t - 0.25) (t - 2) (t + 3) falls into the first quarter.
+  std::array<double, 6> p{};
+  const auto cubic = with_roots<3>({0.25, 2.0, -3.0});
+  std::copy(cubic.begin(), cubic.end(), p.begin() + 2);
+  for (double& coefficient : p) {
+    coefficient = -coefficient;
+  }
+  EXPECT_NEAR(numeric::first_root(numeric::without_zero(p, -1.0, 2), 1.0), 0.25, 1e-15);
+}
+
 }  // namespace
 }  // namespace sonoglide::numeric::first_root_test

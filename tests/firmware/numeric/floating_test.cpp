@@ -180,5 +180,28 @@ TEST(FloatingFloat, IsTheNumberItself) {
   EXPECT_EQ(limited_value(3.0), 3.0);
 }
 
+TEST(FloatingShort, ProductsAreTooSmallByAtMostTheStatedPart) {
+  using Short = Q15<Trapping>;
+  for (int a = 1 << 14; a < 1 << 15; a += 37) {
+    for (int b = 1 << 14; b < 1 << 15; b += 41) {
+      const Split<Short> result =
+          product(Split<Short>{Short::from_raw(static_cast<std::int16_t>(a)), 2},
+                  Split<Short>{Short::from_raw(static_cast<std::int16_t>(b)), -5});
+      const double exact = std::ldexp(static_cast<double>(a) * b, -30 - 3);
+      const double found = std::ldexp(result.mantissa.to_real(), result.exponent);
+      ASSERT_GE(result.mantissa.raw(), 1 << 14);
+      ASSERT_LE(found, exact);
+      ASSERT_GE(found, exact * (1.0 - 0x1p-14));
+    }
+  }
+}
+
+TEST(FloatingFixed, IsRescaledExactly) {
+  const auto rescaled_fixed = rescaled(Split<Number>{Number::from_real(0.75), 3}, -5);
+  EXPECT_EQ(rescaled_fixed.mantissa.to_real(), 0.75);
+  EXPECT_EQ(rescaled_fixed.exponent, -2);
+  EXPECT_EQ(rescaled(0.75F, -2), 0.1875F);
+}
+
 }  // namespace
 }  // namespace sonoglide::numeric::floating_test

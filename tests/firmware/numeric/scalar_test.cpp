@@ -157,5 +157,12 @@ TEST(DoubleCodes, LieNextToTheEnds) {
   EXPECT_EQ(to_code(-2147483647.75 * 0x1p-31), std::numeric_limits<std::int32_t>::min());
 }
 
+TYPED_TEST(FloatScalar, SignOfBothZerosAndOfWhatIsNoNumberIsNone) {
+  EXPECT_EQ(sign(TypeParam(-2.5)), TypeParam(-1));
+  EXPECT_EQ(sign(TypeParam(0.25)), TypeParam(1));
+  EXPECT_EQ(sign(TypeParam(-0.0)), TypeParam(0));
+  EXPECT_EQ(sign(std::numeric_limits<TypeParam>::quiet_NaN()), TypeParam(0));
+}
+
 }  // namespace
 }  // namespace sonoglide::numeric::scalar_test

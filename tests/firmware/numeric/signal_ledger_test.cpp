@@ -91,5 +91,16 @@ TEST(SignalLedgerTest, OtherScalarsPassUnobserved) {
   EXPECT_EQ(ledger.size, 0U);
 }
 
+TEST(SignalLedgerTest, ASignalIsOneByTheTextOfItsName) {
+  SignalLedger ledger;
+  const std::string once = "force";
+  const std::string again = "force";
+  ledger.record(once.c_str(), -0.5);
+  ledger.record(again.c_str(), 0.25);
+  ASSERT_EQ(ledger.size, 1U);
+  EXPECT_EQ(ledger.signals[0].smallest, -0.5);
+  EXPECT_EQ(ledger.signals[0].largest, 0.25);
+}
+
 }  // namespace
 }  // namespace sonoglide::numeric::signal_ledger_test

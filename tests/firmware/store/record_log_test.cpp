@@ -203,5 +203,21 @@ TEST(RecordLogTest, WornFlashIsReportedAndTheOldRecordStands) {
   }
 }
 
+TEST(RecordLogTest, ASaveIsNotDisturbedByTheNextNorByServicesAfterIt) {
+  app::SimulatedFlash flash;
+  Log log(flash, 0);
+  Record found{};
+  log.load(found);
+  EXPECT_EQ(log.proceed(), Saving::idle);
+  log.save(record(1));
+  EXPECT_EQ(log.proceed(), Saving::busy);
+  log.save(record(2));
+  while (log.saving()) {
+    log.proceed();
+  }
+  EXPECT_EQ(log.proceed(), Saving::idle);
+  EXPECT_EQ(loaded(flash), record(1));
+}
+
 }  // namespace
 }  // namespace sonoglide::store::record_log_test

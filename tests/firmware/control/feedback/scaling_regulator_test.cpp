@@ -137,5 +137,19 @@ TYPED_TEST(ScalingRegulatorTest, ItsFactorStaysWithinTwo) {
   EXPECT_GT(scaled_velocity, 0.25);
 }
 
+TYPED_TEST(ScalingRegulatorTest, LearnsNothingFromASmallChangeOfTheTarget) {
+  for (const bool large : {false, true}) {
+    auto regulator = this->regulator(true, 0.3);
+    regulator.target_changes(scaled<TypeParam>(large ? 0.1 : 1e-4));
+    regulator.target_changes(scaled<TypeParam>(1e-4));
+    int asked = 0;
+    regulator.learn_scale([&](TypeParam /*ratio*/) {
+      ++asked;
+      return scaled<TypeParam>(0.5);
+    });
+    EXPECT_EQ(asked > 0, large);
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::control::scaling_regulator_test

@@ -140,5 +140,24 @@ TYPED_TEST(SettlingWatchTest, NamesNoMismatchBeforeItHasSettled) {
   EXPECT_EQ(this->watch_.limit_named(), Limit::none);
 }
 
+/// Of a map in which a ratio ρ needs the velocity (1 - ρ)/2: those of ratios from 4/5 to 5/4 of the target agree.
+TYPED_TEST(SettlingWatchTest, ImpliesTheTargetByAVelocityThatAgrees) {
+  const auto implied = [&](double target, double of_ratio) {
+    const auto velocity_of = [](TypeParam half_ratio) {
+      return scaled<TypeParam>(0.5) - half_ratio;
+    };
+    const auto half_target = scaled<TypeParam>(0.5 * target);
+    return 2.0 * numeric::to_real(this->watch_.implied_ratio(
+                     half_target, velocity_of(half_target),
+                     velocity_of(scaled<TypeParam>(0.5 * of_ratio)), velocity_of));
+  };
+  for (const double agreeing : {0.33, 0.4, 0.49}) {
+    EXPECT_NEAR(implied(0.4, agreeing), 0.4, 1e-6) << agreeing;
+  }
+  EXPECT_EQ(implied(0.4, 0.31), 0.0);
+  EXPECT_EQ(implied(0.4, 0.51), 0.0);
+  EXPECT_NEAR(implied(0.9, 1.0), 0.9, 1e-6);  // 5/4 of it is above 1
+}
+
 }  // namespace
 }  // namespace sonoglide::control::settling_watch_test

@@ -80,5 +80,32 @@ TYPED_TEST(ToleratedSamples, NoneIsAsStrictAsStrict) {
   EXPECT_EQ(controller.step(bad).fault, Fault::measurement_saturated);
 }
 
+TYPED_TEST(ToleratedSamples, OfACalibrationAreLeftOutOfIt) {
+  using S = TypeParam;
+  using Calibrating =
+      Parts<S, LearntFriction<S>, DahlFeedforward<S>, NoSlewLimit<S>,
+            NotchShaper<S, longest_spacing>, IntegralRegulator<S, longest_delay>, NoRelearning<S>,
+            FedForward<S>, ForceSensor, RatioTarget<S>, FullDrive<S>, TolerantSamples>;
+  const Design design;
+  auto all = parameters<Calibrating>(design);
+  all.samples = {2, 10};
+  Controller<Calibrating> controller(all);
+  controller.start();
+  const Measurement<S> good{scaled<S>(0.4), scaled<S>(0.1), Quality::good};
+  const Measurement<S> bad{scaled<S>(-0.9), scaled<S>(0.1), Quality::saturated};
+  const auto samples = static_cast<int>(design.settle_periods + design.average_periods);
+  for (int i = 0; i < samples; ++i) {
+    if (i % 16 == 5) {
+      const auto command = controller.step(bad);
+      EXPECT_EQ(command.state, State::calibrating);
+      EXPECT_EQ(command.limit, Limit::bad_sample);
+      EXPECT_EQ(command.amplitude, S{});
+    }
+    EXPECT_EQ(controller.step(good).state, State::calibrating);
+  }
+  EXPECT_EQ(controller.step(good).state, State::running);
+  EXPECT_NEAR(numeric::to_real(controller.friction_level().force()), 0.4, 1e-6);
+}
+
 }  // namespace
 }  // namespace sonoglide::control::tolerant_samples_test

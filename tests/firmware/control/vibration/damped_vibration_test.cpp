@@ -10,8 +10,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 
+#include "design.hpp"
 #include "firmware/control/limits/notch_shaper.hpp"
 #include "scalars.hpp"
 
@@ -199,6 +201,86 @@ TYPED_TEST(DampedVibrationTest, ItsTableIsLinearBetweenTheRows) {
       }
     }
   }
+}
+
+/// The same in a controller, over a Coulomb contact.
+template <class S>
+class DampedController : public testing::Test {
+ protected:
+  using Composed = Parts<S, TrustedFriction<S>, CoulombFeedforward<S>, NoSlewLimit<S>, NoShaping<S>,
+                         IntegralRegulator<S, 2>, NoRelearning<S>, DampedVibration<S, 2>,
+                         ForceSensor, RatioTarget<S>, DriveLimit<S>>;
+
+  void begin(double drive_limit) {
+    Design design;
+    design.drive_limit = drive_limit;
+    all_ = control::parameters<Composed>(design);
+    all_.vibration = parameters<S>();
+    controller_.emplace(all_);
+    controller_->start();
+    controller_->set_target(scaled<S>(0.25));
+  }
+
+  /// One period: the vibration sensor shows this part of the vibration.
+  void step(double shown = 1.0) {
+    constexpr double speed = 0.1;
+    const double velocity = response * acting_;
+    ratio_ = speed < velocity ? std::asin(speed / velocity) / std::asin(1.0) : 1.0;
+    VibrationMeasurement<S> measurement{};
+    measurement.friction_force = scaled<S>(0.5 * ratio_);
+    measurement.sliding_velocity = scaled<S>(speed);
+    measurement.in_phase = scaled<S>(shown * velocity);
+    acting_ = coming_;
+    command_ = controller_->step(measurement);
+    coming_ = numeric::to_real(command_.amplitude);
+  }
+
+  typename Controller<Composed>::Parameters all_{};
+  std::optional<Controller<Composed>> controller_;
+  DriveCommand<S> command_{};
+  double acting_ = 0.0;
+  double coming_ = 0.0;
+  double ratio_ = 1.0;
+};
+TYPED_TEST_SUITE(DampedController, Scalars);
+
+TYPED_TEST(DampedController, ReachesItsTarget) {
+  this->begin(0.99);
+  for (int k = 0; k < 400; ++k) {
+    this->step();
+  }
+  EXPECT_NEAR(this->ratio_, 0.5, 1e-3);
+  EXPECT_EQ(this->command_.state, State::running);
+  EXPECT_EQ(this->command_.settling, Settling::settled);
+}
+
+TYPED_TEST(DampedController, KeepsToTheLimitOfItsDriveAndNamesIt) {
+  this->begin(0.45);
+  for (int k = 0; k < 200; ++k) {
+    this->step();
+    ASSERT_LE(this->coming_, 0.45 + 1e-6);
+  }
+  EXPECT_NEAR(this->coming_, 0.45, 1e-6);
+  EXPECT_EQ(this->command_.limit, Limit::actuator);
+}
+
+TYPED_TEST(DampedController, IsInAFaultWithoutASignOfTheVibrationUntilItIsStartedAgain) {
+  this->begin(0.99);
+  int periods = 0;
+  while (this->command_.fault == Fault::none && periods < 100) {
+    this->step(0.0);
+    ++periods;
+  }
+  EXPECT_EQ(this->command_.fault, Fault::vibration_missing);
+  EXPECT_LE(periods, TestFixture::Composed::Vibration::missing_samples + 8);
+  EXPECT_EQ(this->coming_, 0.0);
+  this->step();
+  EXPECT_EQ(this->command_.state, State::fault);
+  this->controller_->start();
+  for (int k = 0; k < 400; ++k) {
+    this->step();
+  }
+  EXPECT_NEAR(this->ratio_, 0.5, 1e-3);
 }
 
 }  // namespace
