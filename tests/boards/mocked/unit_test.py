@@ -3,6 +3,7 @@
 Usage: unit_test.py BOARD IMAGE.elf
 """
 import importlib
+import random
 import struct
 import sys
 
@@ -157,6 +158,32 @@ def parameters(unit):
     assert struct.unpack_from("<I", again.link.ask(READ_PARAMETER, struct.pack("<B", DRIVE_LIMIT))[1], 2) == (765_432,)
 
 
+def any_damaged_bit(count):
+    """Of the flash: the unit says so, or hangs where what it runs until then is damaged, and no leg is driven."""
+    dice = random.Random(1)
+    told = 0
+    for _ in range(count):
+        boards = []
+
+        def flip(board):
+            boards.append(board)
+            segments = list(board.elf.segments())
+            address, content = dice.choices(segments, [len(each) for _, each in segments])[0]
+            at = dice.randrange(len(content))
+            board.uc.mem_write(address + at, bytes([content[at] ^ 1 << dice.randrange(8)]))
+
+        try:
+            unit = Unit(flip)
+            unit.link.ask(RESTART)
+            unit.periods(30)
+            told += unit.link.telemetry()["fault"] == IMAGE_DAMAGED
+        except Exception:  # it hangs, or answers anything
+            pass
+        assert not boards[0].driven(), "a damaged image drives"
+    print(f"of {count} flipped bits the unit tells {told}; none of the others drives")
+    assert told > count // 2
+
+
 def damaged_image():
     """A bit that has flipped in flash, where nothing runs before the test: in the checksum, in front of it, and in a
     vector that there is not."""
@@ -205,5 +232,6 @@ if __name__ == "__main__":
     parameters(served)
     hung_service(served)
     damaged_image()
+    any_damaged_bit(20)
     fresh = Unit()
     exceptions(fresh)
