@@ -214,6 +214,10 @@ TYPED_TEST(ControllerStates, TheFrictionThatIsExpectedIsThatOfTheTargetOrUndrive
   EXPECT_NEAR(numeric::to_real(Told::told), -0.2, 1e-6);
   loop.answer(this->sample(0.125, 0.001));  // below the speed floor
   EXPECT_EQ(Told::told, scaled<S>(0.125));
+  auto fast = this->sample(0.25, 0.9);
+  fast.velocity_at_rail = true;
+  loop.answer(fast);
+  EXPECT_EQ(Told::told, scaled<S>(0.25));
 }
 
 /// Nothing but the map tells it the drive.
@@ -239,6 +243,22 @@ TYPED_TEST(ControllerStates, WithoutAForceSensorNoReadingOfTheForceMatters) {
     ASSERT_EQ(command.settling, Settling::pending);
     ASSERT_NEAR(Contact{}.ratio(numeric::to_real(command.amplitude), 0.1), 0.4, 0.002);
   }
+  EXPECT_EQ(controller.step(this->sample(0.9, 0.001)).limit, Limit::speed_floor);
+}
+
+TYPED_TEST(ControllerStates, AStartWhileItDrivesCalibratesAgainWithoutDrive) {
+  const Design design;
+  const int periods = static_cast<int>(design.settle_periods + design.average_periods);
+  ClosedLoop<LearningParts<TypeParam>> loop(design);
+  loop.set_target(0.4);
+  loop.run(periods + 100);
+  ASSERT_EQ(loop.command().state, State::running);
+  loop.controller.start();
+  for (int i = 0; i < periods; ++i) {
+    this->expect_undriven(loop.step(), State::calibrating, Limit::none, Fault::none);
+  }
+  loop.run(200);
+  EXPECT_NEAR(loop.ratio(), 0.4, 1e-3);
 }
 
 }  // namespace

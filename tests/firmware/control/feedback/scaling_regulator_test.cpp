@@ -151,5 +151,9 @@ TYPED_TEST(ScalingRegulatorTest, LearnsNothingFromASmallChangeOfTheTarget) {
   }
 }
 
+TYPED_TEST(ScalingRegulatorTest, WithoutScalingImpliesTheRatioItself) {
+  EXPECT_EQ(this->regulator(false, 0.3).implied(scaled<TypeParam>(0.2)), scaled<TypeParam>(0.2));
+}
+
 }  // namespace
 }  // namespace sonoglide::control::scaling_regulator_test

@@ -185,5 +185,29 @@ TYPED_TEST(LearntFrictionTest, TrustNeverLearns) {
   EXPECT_EQ(numeric::to_real(friction.friction_force(scaled<TypeParam>(0.75))), 0.75);
 }
 
+TYPED_TEST(LearntFrictionTest, IsBelievedAsConfiguredUntilItIsLearnt) {
+  auto friction = this->learner(1, 2);
+  const auto configured = scaled<TypeParam>(0.75);
+  const auto believed = friction.believed(configured);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(believed(), configured);
+    this->learn(friction, 0.25);
+  }
+  EXPECT_EQ(numeric::to_real(believed()), 0.25);
+}
+
+TYPED_TEST(LearntFrictionTest, ADirectionThatIsKnownStaysAsItIs) {
+  auto friction = this->learner(1, 2, 20);
+  for (int i = 0; i < 10; ++i) {
+    this->learn(friction, i < 3 ? 0.25 : 0.75);
+  }
+  this->learn(friction, -0.75, -0.1);
+  for (int i = 0; i < 9; ++i) {
+    this->learn(friction, 0.75);
+  }
+  EXPECT_FALSE(friction.learning());
+  EXPECT_EQ(this->learnt(friction), 0.25);
+}
+
 }  // namespace
 }  // namespace sonoglide::control::learnt_friction_test

@@ -59,5 +59,13 @@ TYPED_TEST(MapSlopesTest, AreThoseOfTheMap) {
   }
 }
 
+TYPED_TEST(MapSlopesTest, BeyondTheLargestDriveThereIsNone) {
+  using S = TypeParam;
+  const CoulombFeedforward<S> map({});
+  MapSlopes<S> slopes;
+  slopes.begin(scaled<S>(0.1), map, scaled<S>(0.9));
+  EXPECT_GT(slopes.of_velocity(map, scaled<S>(0.9)), S{});
+}
+
 }  // namespace
 }  // namespace sonoglide::control::map_slopes_test

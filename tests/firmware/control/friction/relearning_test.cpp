@@ -105,5 +105,19 @@ TYPED_TEST(Relearning, WithoutADriveThereIsNoPause) {
   }
 }
 
+/// Between what was learnt and the map that adapts to it too.
+TYPED_TEST(Relearning, AStopAtAnyMomentOfAPauseLeavesTheLoopSound) {
+  for (int moment = 0; moment < 20; ++moment) {
+    auto loop = this->at_target(0.5);
+    while (loop.step().state != State::relearning) {
+    }
+    loop.run(moment);
+    loop.run(3, 0.0);
+    loop.run(300);
+    EXPECT_NEAR(loop.ratio(), 0.5, 1e-3) << moment;
+    EXPECT_EQ(loop.command().fault, Fault::none) << moment;
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::control::relearning_test

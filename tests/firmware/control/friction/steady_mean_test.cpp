@@ -59,5 +59,11 @@ TYPED_TEST(SteadyMeanTest, TellsOfALimit) {
   EXPECT_TRUE(this->mean.limited());
 }
 
+TYPED_TEST(SteadyMeanTest, WaitsForARequestThatALimitHoldsBack) {
+  this->mean.begin(scaled<TypeParam>(0.3));
+  EXPECT_EQ(this->complete(0.3, 1.005, 0.2, false), 0) << "drifts behind its limit";
+  EXPECT_GT(numeric::to_real(this->mean.moved()), 0.0);
+}
+
 }  // namespace
 }  // namespace sonoglide::control::steady_mean_test

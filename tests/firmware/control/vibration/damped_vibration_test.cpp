@@ -252,6 +252,11 @@ TYPED_TEST(DampedController, ReachesItsTarget) {
   EXPECT_NEAR(this->ratio_, 0.5, 1e-3);
   EXPECT_EQ(this->command_.state, State::running);
   EXPECT_EQ(this->command_.settling, Settling::settled);
+  this->controller_->start();  // goes on with what it knows of its drive
+  for (int k = 0; k < 100; ++k) {
+    this->step();
+  }
+  EXPECT_NEAR(this->ratio_, 0.5, 1e-3);
 }
 
 TYPED_TEST(DampedController, KeepsToTheLimitOfItsDriveAndNamesIt) {

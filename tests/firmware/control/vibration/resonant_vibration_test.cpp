@@ -410,5 +410,16 @@ TYPED_TEST(ResonantVibrationOf, CurrentStaysBelowItsLimit) {
   }
 }
 
+TYPED_TEST(ResonantVibrationOf, GivesNoDriveAtRestForNoVibration) {
+  Nominal nominal;
+  nominal.noise = 1e-4;
+  Bench<TypeParam> bench(nominal, Resonator(nominal.quality, nominal.carrier_Hz));
+  for (int k = 0; k < 20; ++k) {
+    bench.advance(0.0);
+    ASSERT_EQ(bench.amplitude(), 0.0) << k;
+  }
+  EXPECT_EQ(bench.limit, Limit::none);
+}
+
 }  // namespace
 }  // namespace sonoglide::control::resonant_vibration_test

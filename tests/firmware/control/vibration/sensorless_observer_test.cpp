@@ -12,59 +12,19 @@
 #include <random>
 
 #include "scalars.hpp"
+#include "vibration/sensorless_design.hpp"
 
 namespace sonoglide::control::sensorless_observer_test {
 namespace {
 
-constexpr double speed = 0.1;
-constexpr double forced = 0.25;  ///< velocity at full drive
-constexpr double amplitude = 0.6;
-constexpr double middle = 1.36;  ///< angle of a period, of the row in the middle
-constexpr double per_frequency_parameter = 0.04;
-constexpr double input_gain = 0.125;
-constexpr double output = 0.4;
-
-/// The angle at a place.
-double angle(double frequency_parameter) {
-  return middle + per_frequency_parameter * frequency_parameter;
-}
-
-/// SensorlessCovariance has velocities on this base in fixed point.
-constexpr double velocity_base = 0.5;
-
-/// @param wrong  what the model has wrong, of what is usual
-template <class S>
-typename SensorlessCovariance<S>::Parameters covariance(double wrong) {
-  const double base = numeric::is_fixed_point_v<S> ? velocity_base : 1.0;
-  const auto variance = [](double rms) { return scaled<S>(rms * rms); };
-  return {variance(0.05),      variance(2e-4 * wrong), variance(0.02 * wrong),
-          variance(0.4),       variance(0.01 / base),  variance(7e-4 * wrong / base),
-          variance(0.2 / base)};
-}
-
-/// A mode whose first coordinate is felt, and no more.
-template <class S>
-typename SensorlessObserver<S>::Parameters parameters(double noise, double wrong = 1.0) {
-  typename SensorlessObserver<S>::Parameters all{};
-  for (std::size_t i = 0; i < SensorlessIndex::rows; ++i) {
-    const double frequency_parameter =
-        2.0 * static_cast<double>(i) / (SensorlessIndex::rows - 1) - 1.0;
-    SensorlessRow<S>& row = all.table[i];
-    row[SensorlessIndex::rotation] = scaled<S>(std::cos(angle(frequency_parameter)));
-    row[SensorlessIndex::rotation + 1] = scaled<S>(std::sin(angle(frequency_parameter)));
-    row[SensorlessIndex::input_gain + 1] = scaled<S>(input_gain);
-    row[SensorlessIndex::forced] = scaled<S>(forced);
-    for (std::size_t node = 0; node < SensorlessIndex::nodes; ++node) {
-      S* const numbers = &row[SensorlessIndex::plain + node * SensorlessIndex::Node::count];
-      numbers[SensorlessIndex::Node::output] = scaled<S>(output);
-      numbers[SensorlessIndex::Node::noise] = scaled<S>(noise);
-    }
-  }
-  all.covariance = covariance<S>(wrong);
-  all.slower = numeric::is_fixed_point_v<S> ? 1 : 0;
-  all.linear = {scaled<S>(0.5), 3};
-  return all;
-}
+using sensorless_design::amplitude;
+using sensorless_design::angle;
+using sensorless_design::forced;
+using sensorless_design::input_gain;
+using sensorless_design::output;
+using sensorless_design::parameters;
+using sensorless_design::per_frequency_parameter;
+using sensorless_design::speed;
 
 /// What the observer is told of a mode that turns by its own angle.
 template <class S>
@@ -281,6 +241,58 @@ TEST(SensorlessObserverTest, ItsFrequencyIsNearTheCramerRaoBound) {
           << noise << ", " << periods;
     }
   }
+}
+
+/// As one that is at least 0.3 of the sliding velocity above the forecast.
+TYPED_TEST(SensorlessObserverTest, AReadingBeyondAllVelocitiesMovesItByNoMoreThanTheMost) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> beyond(nominal);
+  SensorlessObserver<TypeParam> far(nominal);
+  const PastAmplitudes<TypeParam> steady{scaled<TypeParam>(amplitude), scaled<TypeParam>(amplitude),
+                                         scaled<TypeParam>(amplitude)};
+  for (int k = 0; k < 5; ++k) {
+    beyond.predict(TypeParam{});
+    far.predict(TypeParam{});
+    beyond.observe(numeric::from_code<TypeParam>(INT32_MAX), scaled<TypeParam>(speed), steady,
+                   scaled<TypeParam>(0.5));
+    far.observe(scaled<TypeParam>(0.5), scaled<TypeParam>(speed), steady, scaled<TypeParam>(0.5));
+    ASSERT_EQ(beyond.mode().first, far.mode().first);
+    ASSERT_EQ(beyond.mode().second, far.mode().second);
+  }
+  EXPECT_NE(beyond.mode().first, TypeParam{});
+}
+
+TYPED_TEST(SensorlessObserverTest, ForgetsTheModeWhereTheVibrationWasSlowerThanTheSliding) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> observer(nominal);
+  Ringing<TypeParam> ringing{observer, angle(0.0), {0.03, -0.05}};
+  for (int k = 0; k < 60; ++k) {
+    ringing.pass(amplitude, 0.0, 0.0);
+  }
+  const double mode =
+      std::hypot(numeric::to_real(observer.mode().first), numeric::to_real(observer.mode().second));
+  const auto slow = scaled<TypeParam>(0.2);  // half the sliding velocity
+  observer.observe(scaled<TypeParam>(0.3), scaled<TypeParam>(speed),
+                   {scaled<TypeParam>(amplitude), slow, slow}, scaled<TypeParam>(0.5));
+  EXPECT_NEAR(
+      std::hypot(numeric::to_real(observer.mode().first), numeric::to_real(observer.mode().second)),
+      31.0 / 32.0 * mode, 1e-6);
+}
+
+/// Below a velocity ratio of 1/8 its table is that of 1/8.
+TYPED_TEST(SensorlessObserverTest, FindsAModeAtASlowSliding) {
+  const auto nominal = parameters<TypeParam>(0.001);
+  SensorlessObserver<TypeParam> observer(nominal);
+  std::complex<double> mode(0.003, -0.005);
+  for (int k = 0; k < 200; ++k) {
+    mode *= std::polar(1.0, angle(0.0));
+    observer.predict(TypeParam{});
+    const auto now = scaled<TypeParam>(amplitude);
+    observer.observe(scaled<TypeParam>(forced * amplitude + output * mode.real()),
+                     scaled<TypeParam>(0.01), {now, now, now}, scaled<TypeParam>(0.5));
+  }
+  EXPECT_NEAR(numeric::to_real(observer.mode().first), mode.real(), 0.001);
+  EXPECT_NEAR(numeric::to_real(observer.mode().second), mode.imag(), 0.001);
 }
 
 }  // namespace
