@@ -150,6 +150,16 @@ TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
   EXPECT_NEAR(told.mismatch, 1000, 1);
 }
 
+TEST(LinkServiceTest, TheMismatchIsKnownOfASettledRatioAlone) {
+  hal::Drive drive{};
+  drive.commanded_ratio = numeric::to_code(0.25);  // 2^31 is a ratio of 2
+  EXPECT_EQ(mismatch_thousandths(drive, 400000), 0);
+  drive.settling = static_cast<std::uint8_t>(control::Settling::settled);
+  EXPECT_EQ(mismatch_thousandths(drive, 400000), 1250);
+  EXPECT_EQ(mismatch_thousandths(drive, 0), 0);
+  EXPECT_EQ(mismatch_thousandths(drive, 1), UINT16_MAX);
+}
+
 TEST(LinkServiceTest, SaysWhatItIs) {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
