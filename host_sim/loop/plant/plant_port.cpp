@@ -51,15 +51,13 @@ double drive_force_N(const Stretch& stretch, double offset_s) {
 
 namespace {
 
-/// Where the friction is none, event_gauss has nothing to cut at reversals, and event_taylor's one
-/// step in a period takes its place.
-scene::Scene with_acting_solver(scene::Scene scene) {
-  if (scene.solver.method == scene::method_of<scene::solvers::EventGauss> &&
-      scene.friction.limit_N() == 0.0) {
-    scene.solver.method = scene::method_of<scene::solvers::EventTaylor>;
-    scene.solver.order.reset();
-  }
-  return scene;
+std::unique_ptr<PlantPort> make_unchanging(const scene::Scene& scene) {
+  const PlantDescription description(scene);
+  return std::visit(
+      [&](const auto& law) {
+        return scene.load ? make_loaded_plant(description, law) : make_law_plant(description, law);
+      },
+      configure::acting_law(scene.friction));
 }
 
 }  // namespace
@@ -68,13 +66,16 @@ std::unique_ptr<PlantPort> make_plant_port(const scene::Scene& scene) {
   if (scene.profile_key() != nullptr || scene.carrier_changes()) {
     return std::make_unique<ChangingPlant>(scene);
   }
-  const scene::Scene acting = with_acting_solver(scene);
-  const PlantDescription description(acting);
-  return std::visit(
-      [&](const auto& law) {
-        return scene.load ? make_loaded_plant(description, law) : make_law_plant(description, law);
-      },
-      configure::acting_law(scene.friction));
+  if (scene.solver.method == scene::method_of<scene::solvers::EventGauss> &&
+      scene.friction.limit_N() == 0.0) {
+    // Without friction event_gauss has nothing to cut at reversals, and event_taylor's one step in a period takes
+    // its place.
+    scene::Scene acting = scene;
+    acting.solver.method = scene::method_of<scene::solvers::EventTaylor>;
+    acting.solver.order.reset();
+    return make_unchanging(acting);
+  }
+  return make_unchanging(scene);
 }
 
 }  // namespace sonoglide::loop
