@@ -35,9 +35,7 @@ constexpr std::uint32_t reciprocal_by_newton(std::uint32_t d) {
     inverse +=
         static_cast<std::uint32_t>((static_cast<std::int32_t>(inverse) * (rest >> 16)) >> 15);
   }
-  while (d * inverse > 1U << 31) {
-    --inverse;
-  }
+  // Never above 2^31 / d: a test tries every d.
   while ((1U << 31) - d * inverse >= d) {
     ++inverse;
   }
@@ -124,8 +122,9 @@ constexpr std::int32_t rounded_q31_product(std::int32_t a, std::int32_t b) {
   }
 }
 
-/// 2^31 a / b to nearest, ties toward +infinity, b not 0: the quotient of two numbers with 31 fraction bits,
-/// digit by digit. Where |a| > |b|, any number outside the range of the two, with the sign of the quotient.
+/// 2^31 a / b to nearest, b not 0: the quotient of two numbers with 31 fraction bits, digit by digit. Where
+/// |a| > |b|, any number outside the range of the two, with the sign of the quotient. There is no tie: b would have
+/// to divide by 2 as often as 2^32 a.
 constexpr std::int64_t quotient_by_digits(std::int32_t a, std::int32_t b) {
   const bool negative = (a < 0) != (b < 0);
   std::uint32_t rest = a < 0 ? 0U - static_cast<std::uint32_t>(a) : static_cast<std::uint32_t>(a);
@@ -144,8 +143,7 @@ constexpr std::int64_t quotient_by_digits(std::int32_t a, std::int32_t b) {
       ++quotient;
     }
   }
-  const std::uint32_t twice = 2 * rest;
-  quotient += twice > divisor || (twice == divisor && !negative) ? 1U : 0U;
+  quotient += 2 * rest > divisor ? 1U : 0U;
   return negative ? -std::int64_t{quotient} : std::int64_t{quotient};
 }
 
