@@ -25,7 +25,7 @@ struct StoredImage {
   std::uint32_t checksum;   ///< 0 where no build has put one
 };
 
-/// An image that calls this has a checksum, and no other.
+/// Only an image that calls this has a checksum.
 inline StoredImage stored_image() {
   // Through volatile: the compiler takes it for 0.
   const volatile std::uint32_t& checksum = image_checksum.crc32;

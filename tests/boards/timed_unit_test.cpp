@@ -384,7 +384,7 @@ LoadedFile loaded_file(const std::string& path) {
 TEST_P(TimedUnit, ABitThatHasFlippedInItsImageHoldsItOff) {
   const LoadedFile whole = loaded_file(file_of(GetParam().name, "target_step_timed"));
   constexpr std::size_t checksum_bytes = 8;
-  // None of them changes what runs before the test: the checksum, what is in front of it, a vector that there is not.
+  // None of them changes what runs before the test: the checksum, what is in front of it, a vector that nothing takes.
   std::vector<std::size_t> places{whole.end - 1, whole.end - checksum_bytes - 1};
   if (GetParam().name != std::string("riscv32-virt")) {
     places.push_back(whole.begin + 7 * sizeof(std::uint32_t));

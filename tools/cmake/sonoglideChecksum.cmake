@@ -12,7 +12,7 @@ function(sonoglide_image_checksum target)
   set(stored "${folder}/crc")  # three letters: name and checksum fill the section
   set(linked "${folder}/linked")
   add_custom_command(TARGET ${target} POST_BUILD VERBATIM
-    COMMAND "${CMAKE_OBJCOPY}" -O binary --remove-section=.image_checksum "${image}" "${stored}"
+    COMMAND "${CMAKE_OBJCOPY}" -O binary -j .boot -j .text -j .rodata -j .data "${image}" "${stored}"
     COMMAND "${CMAKE_OBJCOPY}" "--add-gnu-debuglink=${stored}" "${image}" "${linked}"
     COMMAND "${CMAKE_OBJCOPY}" "--dump-section=.gnu_debuglink=${folder}/checksum" "${linked}"
     COMMAND "${CMAKE_OBJCOPY}" "--update-section=.image_checksum=${folder}/checksum" "${image}")

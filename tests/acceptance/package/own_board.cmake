@@ -15,8 +15,10 @@ foreach(sonoglide PREFIX SOURCE)
   run("${CMAKE_COMMAND}" -G Ninja -S "${project}" -B "${build}" ${how})
   run("${CMAKE_COMMAND}" --build "${build}")
   expect("${output}" HAS "controller_unit.elf")
+  file(READ "${build}/CMakeFiles/controller_unit.dir/checksum" checksum HEX)
   file(READ "${build}/controller_unit.elf" image HEX)
-  expect("${image}" HAS "63726300")  # what stands before the checksum that the build writes
+  expect("${checksum}" HAS "63726300")
+  expect("${image}" HAS "${checksum}")
 endforeach()
 
 # refused(<from> <to> <message>): the project with a change.

@@ -59,6 +59,7 @@ TYPED_TEST(MapSlopesTest, AreThoseOfTheMap) {
   }
 }
 
+/// What is not below 0 says that there is none.
 TYPED_TEST(MapSlopesTest, BeyondTheLargestDriveThereIsNone) {
   using S = TypeParam;
   const CoulombFeedforward<S> map({});
