@@ -4,22 +4,17 @@ Usage: coverage_test.py SOURCES SCRATCH
 """
 
 import pathlib
-import shutil
 import subprocess
 import sys
 import unittest
+
+import toy_room
 
 SOURCES, SCRATCH = map(pathlib.Path, sys.argv[1:3])
 
 PRESETS = """{"version": 6, "configurePresets": [{"name": "coverage", "generator": "Ninja",
   "binaryDir": "${sourceDir}/build/coverage", "cacheVariables": {"CMAKE_CXX_COMPILER": "clang++",
   "CMAKE_CXX_FLAGS": "-fprofile-instr-generate -fcoverage-mapping"}}]}
-"""
-CMAKE_LISTS = """cmake_minimum_required(VERSION 3.25)
-project(toy CXX)
-add_executable(link_tests tests/toy_test.cpp)
-target_include_directories(link_tests PRIVATE .)
-set_target_properties(link_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY bin)
 """
 HEADER = """#pragma once
 
@@ -80,15 +75,8 @@ ALL = "both(true, true) && !both(true, false) && !both(false, true) && not_calle
 
 
 def setUpModule():
-    shutil.rmtree(SCRATCH, ignore_errors=True)
-    files = {"CMakePresets.json": PRESETS, "CMakeLists.txt": CMAKE_LISTS, "firmware/link/toy.hpp": HEADER,
-             "tools/coverage": (SOURCES / "tools/coverage").read_text()}
-    for name, text in files.items():
-        (SCRATCH / name).parent.mkdir(parents=True, exist_ok=True)
-        (SCRATCH / name).write_text(text)
-    (SCRATCH / "tests").mkdir()
-    for command in (["git", "init", "-q"], ["git", "add", "."]):
-        subprocess.run(command, cwd=SCRATCH, check=True)
+    toy_room.make(SCRATCH, SOURCES / "tools/coverage",
+                  {"CMakePresets.json": PRESETS, "firmware/link/toy.hpp": HEADER, "tests/toy_test.cpp": TEST})
 
 
 class ToyRoom(unittest.TestCase):

@@ -5,20 +5,15 @@ Usage: mutants_test.py SOURCES SCRATCH CMAKE COMPILER
 
 import pathlib
 import runpy
-import shutil
 import subprocess
 import sys
 import unittest
 
+import toy_room
+
 SOURCES, SCRATCH = map(pathlib.Path, sys.argv[1:3])
 CMAKE, COMPILER = sys.argv[3:5]
 
-CMAKE_LISTS = """cmake_minimum_required(VERSION 3.25)
-project(toy CXX)
-add_executable(link_tests tests/toy_test.cpp)
-target_include_directories(link_tests PRIVATE .)
-set_target_properties(link_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY bin)
-"""
 HEADER = """#pragma once
 
 inline bool above(int value) {
@@ -46,17 +41,10 @@ LIST = SCRATCH / "tests/firmware/equivalent_changes.txt"
 
 
 def setUpModule():
-    shutil.rmtree(SCRATCH, ignore_errors=True)
-    files = {"CMakeLists.txt": CMAKE_LISTS, "firmware/link/toy.hpp": HEADER, "tests/toy_test.cpp": TEST,
-             "tools/mutants": (SOURCES / "tools/mutants").read_text()}
-    for name, text in files.items():
-        (SCRATCH / name).parent.mkdir(parents=True, exist_ok=True)
-        (SCRATCH / name).write_text(text)
+    toy_room.make(SCRATCH, SOURCES / "tools/mutants", {"firmware/link/toy.hpp": HEADER, "tests/toy_test.cpp": TEST})
     LIST.parent.mkdir(parents=True)
-    for command in (["git", "init", "-q"], ["git", "add", "."],
-                    [CMAKE, "-G", "Ninja", "-B", "build/release", f"-DCMAKE_CXX_COMPILER={COMPILER}",
-                     "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]):
-        subprocess.run(command, cwd=SCRATCH, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([CMAKE, "-G", "Ninja", "-B", "build/release", f"-DCMAKE_CXX_COMPILER={COMPILER}",
+                    "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"], cwd=SCRATCH, check=True, stdout=subprocess.DEVNULL)
 
 
 class ToyRoom(unittest.TestCase):

@@ -11,11 +11,14 @@ template <class S>
 class FrequencyEstimateTest : public testing::Test {};
 TYPED_TEST_SUITE(FrequencyEstimateTest, Scalars);
 
-TYPED_TEST(FrequencyEstimateTest, StaysWhereNothingTellsOfIt) {
-  FrequencyEstimate<TypeParam> estimate;
+TYPED_TEST(FrequencyEstimateTest, MovesByGradientOverSquareWhereSomethingTellsOfIt) {
+  using Estimate = FrequencyEstimate<TypeParam>;
+  Estimate estimate;
   estimate.restart();
   EXPECT_EQ(estimate.move(TypeParam{}, scaled<TypeParam>(0.5)), TypeParam{});
-  EXPECT_NE(estimate.move(scaled<TypeParam>(0.25), scaled<TypeParam>(0.001)), TypeParam{});
+  const TypeParam move = estimate.move(scaled<TypeParam>(0.25), scaled<TypeParam>(-0.1));
+  EXPECT_NEAR(numeric::to_real(move), -0.1 / (0.25 * (1 << Estimate::base)), 1e-4);
+  EXPECT_EQ(estimate.frequency_parameter(), move);
 }
 
 }  // namespace
