@@ -1,5 +1,10 @@
 #include "host_sim/loop/plant/changing_plant.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
 #include "firmware/numeric/turn.hpp"
 #include "firmware/plant/state.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -10,8 +15,8 @@
 namespace sonoglide::loop {
 namespace {
 
-/// 2^-40 of a quarter of a carrier period, which the longest pieces are, is next to nothing.
-constexpr int most_halvings = 40;
+/// A piece this part of a carrier period long is next to nothing.
+constexpr double shortest = 1e-12;
 /// A friction force is seen this part of a carrier period after the instant.
 constexpr double glance = 1e-12;
 
@@ -25,6 +30,17 @@ scene::SolverMethod method_of_period(scene::SolverMethod asked) {
 /// The results of pieces can be compared where a tolerance bounds their error.
 scene::SolverMethod method_of_pieces(scene::SolverMethod asked) {
   return scene::is_adaptive(asked) ? event_taylor : asked;
+}
+
+/// Of a piece whose results are `apart` times what is allowed apart: their difference falls with the
+/// length to the power of twice the number of parts, less 1.
+double shortening(double apart, int parts) {
+  return std::clamp(0.9 * std::pow(apart, -1.0 / (2 * parts - 1)), 0.125, 0.5);
+}
+
+/// Towards five parts, at which a piece costs the least for its length.
+double lengthening(int parts) {
+  return parts <= 3 ? 1.6 : parts == 4 ? 1.25 : parts == 5 ? 1.1 : 0.9;
 }
 
 Stretch part_of(const Stretch& stretch, double offset_s, double duration_s) {
@@ -121,39 +137,63 @@ plant::Outcome<double> ChangingPlant::hold_throughout(const Stretch& stretch, co
 plant::Outcome<double> ChangingPlant::follow_slope(const Stretch& stretch, const Course& course,
                                                    Sight* sight, EnergyBalance& energy) {
   const Slope slope{stretch, course};
-  const bool adaptive = scene::is_adaptive(solver_.method);
-  const double quarter_s = 0.25 * numeric::two_pi / scales_.angular_frequency_rad_per_s;
-  const auto count = plant::fixed_step_count(
-      stretch.duration_s, adaptive ? quarter_s : solver_.step_s, plant::max_steps_per_advance);
-  if (count > plant::max_steps_per_advance) {
-    return {plant::Error::too_many_steps, 0.0};
-  }
-  const double length_s = stretch.duration_s / count;
   const std::uint64_t events = held_.cost().events;
-  std::uint64_t real_events = 0;
-  Carried now = held_.carried();
-  energy = EnergyBalance();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Piece whole = taken(slope, now, i * length_s, length_s);
-    const Piece piece =
-        adaptive ? refined(slope, now, doubled(slope, now, whole), most_halvings, sight) : whole;
-    if (!adaptive) {
-      look(slope, now, whole, 0, sight);
-    }
-    energy.append(piece.energy);
-    real_events += piece.events;
-    now = piece.end;
-    if (piece.outcome.error != plant::Error::none) {
-      held_.put(now);
-      return piece.outcome;
-    }
+  const Piece all = scene::is_adaptive(solver_.method)
+                        ? adapted(slope, held_.carried(), 0.0, stretch.duration_s, sight)
+                        : in_steps(slope, sight);
+  energy = all.energy;
+  if (all.outcome.error != plant::Error::none) {
+    held_.put(all.end);
+    return all.outcome;
   }
-  arrive(slope, now, stretch.duration_s);
+  arrive(slope, all.end, stretch.duration_s);
   if (sight != nullptr) {
     sight->seen.resize(sight->offsets_s.size(), held_.plant().state());
   }
-  tried_events_ += held_.cost().events - events - real_events;
+  tried_events_ += held_.cost().events - events - all.events;
   return {plant::Error::none, stretch.duration_s};
+}
+
+/// Of the solver, which takes the values of the middle of each.
+ChangingPlant::Piece ChangingPlant::in_steps(const Slope& slope, Sight* sight) {
+  const double duration_s = slope.stretch.duration_s;
+  const auto count =
+      plant::fixed_step_count(duration_s, solver_.step_s, plant::max_steps_per_advance);
+  Piece all{0.0, 0.0, held_.carried()};
+  if (count > plant::max_steps_per_advance) {
+    all.outcome.error = plant::Error::too_many_steps;
+  }
+  const double length_s = duration_s / count;
+  for (std::uint32_t i = 0; i < count && all.outcome.error == plant::Error::none; ++i) {
+    const Piece step = taken(slope, all.end, i * length_s, length_s);
+    look(slope, all.end, step, sight);
+    all = joined(all, step);
+  }
+  return all;
+}
+
+/// Each piece as long as the last ones let expect.
+ChangingPlant::Piece ChangingPlant::adapted(const Slope& slope, const Carried& begin,
+                                            double offset_s, double length_s, Sight* sight) {
+  const double period_s = numeric::two_pi / scales_.angular_frequency_rad_per_s;
+  Piece all{offset_s, 0.0, begin};
+  double next_s = 0.25 * period_s;
+  bool arrived = false;
+  while (!arrived && all.outcome.error == plant::Error::none) {
+    const double rest_s = length_s - all.length_s;
+    const double tried_s = std::min(next_s, rest_s);
+    const Extrapolated found = extrapolated(slope, all.end, offset_s + all.length_s, tried_s);
+    if (!(found.apart <= 1.0) && found.piece.outcome.error == plant::Error::none &&
+        tried_s > shortest * period_s) {
+      next_s = tried_s * shortening(found.apart, found.parts);
+      continue;
+    }
+    look(slope, all.end, found.piece, sight);
+    all = joined(all, found.piece);
+    arrived = tried_s == rest_s;
+    next_s = std::min(0.25 * period_s, tried_s * lengthening(found.parts));
+  }
+  return all;
 }
 
 /// The values of its middle.
@@ -176,52 +216,40 @@ ChangingPlant::Piece ChangingPlant::taken(const Slope& slope, const Carried& beg
   return piece;
 }
 
-/// Of fourth order: once whole and once in halves.
-/// @param whole  from the same beginning
-ChangingPlant::Doubled ChangingPlant::doubled(const Slope& slope, const Carried& begin,
-                                              const Piece& whole) {
-  Doubled both{whole, whole};
-  if (whole.outcome.error != plant::Error::none) {
-    return both;
+/// One after the other, of equal length.
+ChangingPlant::Piece ChangingPlant::in_parts(const Slope& slope, const Carried& begin,
+                                             double offset_s, double length_s, int parts) {
+  const double part_s = length_s / parts;
+  Piece all{offset_s, 0.0, begin};
+  for (int i = 0; i < parts && all.outcome.error == plant::Error::none; ++i) {
+    all = joined(all, taken(slope, all.end, offset_s + i * part_s, part_s));
   }
-  const double half_s = 0.5 * whole.length_s;
-  both.first_half = taken(slope, begin, whole.offset_s, half_s);
-  both.piece =
-      joined(both.first_half, taken(slope, both.first_half.end, whole.offset_s + half_s, half_s));
-  if (both.piece.outcome.error == plant::Error::none) {
-    extrapolate(whole, 1.0 / 3.0, both.piece);
-  }
-  return both;
+  return all;
 }
 
-/// @param coarse    from the same beginning
-/// @param halvings  at most
-ChangingPlant::Piece ChangingPlant::refined(const Slope& slope, const Carried& begin,
-                                            const Doubled& coarse, int halvings, Sight* sight) {
-  if (halvings == 0 || coarse.piece.outcome.error != plant::Error::none) {
-    look(slope, begin, coarse.piece, halvings, sight);
-    return coarse.piece;
+/// From 1, 2, 3 ... parts, until two results agree, or will not.
+ChangingPlant::Extrapolated ChangingPlant::extrapolated(const Slope& slope, const Carried& begin,
+                                                        double offset_s, double length_s) {
+  Tableau row;
+  Extrapolated best{in_parts(slope, begin, offset_s, length_s, 1), 1,
+                    std::numeric_limits<double>::infinity()};
+  row[0] = best.piece;
+  bool ends = false;
+  while (!ends && best.parts < most_parts && best.piece.outcome.error == plant::Error::none) {
+    const int parts = best.parts + 1;
+    const Piece next = in_parts(slope, begin, offset_s, length_s, parts);
+    const Piece& newest =
+        next.outcome.error == plant::Error::none ? extrapolate(next, parts, row) : next;
+    const double apart = difference(best.piece, newest);
+    const double expected = apart * std::pow(apart / best.apart, most_parts + 1 - parts);
+    ends = parts >= least_parts && (apart <= 1.0 || !(expected <= 1.0));
+    best = {newest, parts, apart};
   }
-  const double half_s = 0.5 * coarse.piece.length_s;
-  const double middle_s = coarse.piece.offset_s + half_s;
-  const auto second_half = [&](const Carried& middle) {
-    return doubled(slope, middle, taken(slope, middle, middle_s, half_s));
-  };
-  const Doubled first = doubled(slope, begin, coarse.first_half);
-  Piece fine = joined(first.piece, second_half(first.piece.end).piece);
-  if (fine.outcome.error == plant::Error::none && agree(coarse.piece, fine)) {
-    look(slope, begin, coarse.piece, halvings, sight);
-    extrapolate(coarse.piece, 1.0 / 15.0, fine);
-    return fine;
-  }
-  const Piece left = refined(slope, begin, first, halvings - 1, sight);
-  return left.outcome.error != plant::Error::none
-             ? left
-             : joined(left, refined(slope, left.end, second_half(left.end), halvings - 1, sight));
+  return best;
 }
 
 /// What is to be seen of a piece, each from its beginning on.
-void ChangingPlant::look(const Slope& slope, const Carried& begin, const Piece& piece, int halvings,
+void ChangingPlant::look(const Slope& slope, const Carried& begin, const Piece& piece,
                          Sight* sight) {
   if (sight == nullptr) {
     return;
@@ -238,10 +266,10 @@ void ChangingPlant::look(const Slope& slope, const Carried& begin, const Piece& 
     }
     Carried at = begin;
     if (into_s > 0.0) {
-      const Piece whole = taken(beside, begin, piece.offset_s, into_s);
-      at = halvings == 0
-               ? whole.end
-               : refined(beside, begin, doubled(beside, begin, whole), halvings, nullptr).end;
+      at = (scene::is_adaptive(solver_.method)
+                ? adapted(beside, begin, piece.offset_s, into_s, nullptr)
+                : taken(beside, begin, piece.offset_s, into_s))
+               .end;
     }
     arrive(beside, at, offset_s);
     sight->seen.push_back(held_.plant().state());

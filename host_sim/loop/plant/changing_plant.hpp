@@ -1,6 +1,7 @@
 /// A plant whose friction limit, spring or carrier frequency changes in time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -41,14 +42,16 @@ class ChangingSpring {
 /// A slope, of the friction or the spring, is followed in pieces: in each the values of its middle
 /// hold, and SlopingContact leads what the contact remembers along the limit. This map is its own
 /// inverse in reversed time, so that where the motion is smooth its error over a piece of length h
-/// is c h^3 + O(h^5). With an adaptive solver a piece is taken once whole and once in halves. Where
-/// both agree within the solver's tolerance the result is
-///   halves + (halves - whole)/3,
-/// of fourth order; else each half is a piece. About a reversal, a release or a slip, where the
-/// error is of first or second order, the pieces so become as short as the tolerance asks for.
+/// is c h^3 + d h^5 + ... With an adaptive solver a piece is taken in 1, 2, 3 ... parts, which are
+/// extrapolated to parts of no length. Where two such results agree the last one is taken, else the
+/// piece is shortened. About a reversal, a release or a slip, where the error is of first or second
+/// order, the pieces so become as short as the tolerance asks for.
 /// What agrees: the ends of the motion in its own size, the forces that the contact remembers and
-/// the impulse of the friction, in a sixteenth of the tolerance; forces in Fc, an impulse in Fc
-/// times the carrier period. Fc is the largest limit of the scene.
+/// the impulse of the friction, in 1/32 of the tolerance; forces in Fc, an impulse in Fc times the
+/// carrier period. Fc is the largest limit of the scene. Three parts are the least, because about a
+/// slip one and two of them may agree by chance.
+/// Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, II.9
+/// (extrapolation, harmonic sequence, symmetric methods).
 ///
 /// A solver of fixed steps takes the values of the middle of each step, and nothing is compared.
 ///
@@ -78,9 +81,11 @@ class ChangingPlant final : public PlantPort {
   void copy_state(StateCopy& copy) override;
 
  private:
-  /// Part of the solver's tolerance within which the whole of a piece and its halves agree; what one
+  /// Part of the solver's tolerance within which two results of a piece agree; what one
   /// carrier period collects in its pieces then stays below the tolerance.
-  static constexpr double share_of_tolerance = 1.0 / 16.0;
+  static constexpr double share_of_tolerance = 1.0 / 32.0;
+  static constexpr int least_parts = 3;
+  static constexpr int most_parts = 7;
 
   using Carried = HeldPlant::Carried;
 
@@ -104,25 +109,32 @@ class ChangingPlant final : public PlantPort {
     plant::Outcome<double> outcome{};
   };
 
-  struct Doubled {
+  /// A piece from several numbers of parts.
+  struct Extrapolated {
     Piece piece;
-    Piece first_half;
+    int parts;     ///< the last number
+    double apart;  ///< how far from that of one number fewer, in what is allowed
   };
+  using Tableau = std::array<Piece, most_parts>;
 
   plant::Outcome<double> follow(const Stretch& stretch, Sight* sight, EnergyBalance& energy);
   plant::Outcome<double> hold_throughout(const Stretch& stretch, const Course& course, Sight* sight,
                                          EnergyBalance& energy);
   plant::Outcome<double> follow_slope(const Stretch& stretch, const Course& course, Sight* sight,
                                       EnergyBalance& energy);
-  Piece taken(const Slope& slope, const Carried& begin, double offset_s, double length_s);
-  Doubled doubled(const Slope& slope, const Carried& begin, const Piece& whole);
-  Piece refined(const Slope& slope, const Carried& begin, const Doubled& coarse, int halvings,
+  Piece in_steps(const Slope& slope, Sight* sight);
+  Piece adapted(const Slope& slope, const Carried& begin, double offset_s, double length_s,
                 Sight* sight);
+  Piece taken(const Slope& slope, const Carried& begin, double offset_s, double length_s);
+  Piece in_parts(const Slope& slope, const Carried& begin, double offset_s, double length_s,
+                 int parts);
+  Extrapolated extrapolated(const Slope& slope, const Carried& begin, double offset_s,
+                            double length_s);
   static Piece joined(const Piece& first, const Piece& second);
   static void extrapolate(const Piece& coarse, double part, Piece& fine);
-  bool agree(const Piece& coarse, const Piece& fine) const;
-  void look(const Slope& slope, const Carried& begin, const Piece& piece, int halvings,
-            Sight* sight);
+  static const Piece& extrapolate(Piece next, int parts, Tableau& row);
+  double difference(const Piece& coarse, const Piece& fine) const;
+  void look(const Slope& slope, const Carried& begin, const Piece& piece, Sight* sight);
   void arrive(const Slope& slope, const Carried& at, double offset_s);
   Held values(const Slope& slope, double offset_s) const;
 
