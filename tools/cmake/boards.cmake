@@ -10,6 +10,7 @@
 # neither host nor hardware. A toolchain file without a board compiles the core alone.
 
 include(sonoglideChecksum)
+include(sonoglideBoardClass)
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
@@ -67,6 +68,24 @@ function(sonoglide_interrupts number)
   endif()
 endfunction()
 
+# sonoglide_check_board(<function> <linker script> <arguments>...): what a person wrote of the board ${name} of that
+# function, which has parsed its arguments as BOARD_...; those named here are classes of board.hpp.
+function(sonoglide_check_board function memory)
+  set(call "${function}(${name})")
+  if(BOARD_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${call}: unknown: ${BOARD_UNPARSED_ARGUMENTS}; the arguments are in tools/cmake/boards.cmake")
+  endif()
+  foreach(file "${BOARD_FOLDER}/board.hpp" "${memory}")
+    if(NOT EXISTS "${PROJECT_SOURCE_DIR}/${file}")
+      message(FATAL_ERROR "${call}: there is no ${file}")
+    endif()
+  endforeach()
+  foreach(argument IN LISTS ARGN)
+    sonoglide_require_class("${call}" ${argument} "${BOARD_${argument}}"
+      "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/board.hpp")
+  endforeach()
+endfunction()
+
 # sonoglide_board(<name> FOLDER <f> CLASS <c> [INTERRUPTS <number>]): a board that keeps its own carrier periods. Its
 # class is in <f>/board.hpp, its memory map in <f>/memory.ld.
 function(sonoglide_board name)
@@ -75,6 +94,7 @@ function(sonoglide_board name)
     return()
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;CLASS;INTERRUPTS" "" ${ARGN})
+  sonoglide_check_board(sonoglide_board ${BOARD_FOLDER}/memory.ld CLASS)
   sonoglide_interrupts("${BOARD_INTERRUPTS}")
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
   sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
@@ -103,6 +123,7 @@ function(sonoglide_carrier_board name)
     target_compile_definitions(sonoglide_board PUBLIC
       "SONOGLIDE_CHIP_HEADER=\"${BOARD_FOLDER}/${BOARD_CHIP}/chip.hpp\"")
   endif()
+  sonoglide_check_board(sonoglide_carrier_board ${memory} HARDWARE SERIAL_BOARD)
   if(BOARD_ENCODER AND SONOGLIDE_ENCODER_COUNTS_PER_M)
     target_compile_definitions(sonoglide_board PUBLIC
       SONOGLIDE_ENCODER_COUNTS_PER_M=${SONOGLIDE_ENCODER_COUNTS_PER_M})
@@ -159,6 +180,11 @@ function(sonoglide_emulated_board name)
   if(NOT BOARD_MEMORY)
     set(BOARD_MEMORY memory.ld)
   endif()
+  set(classes SERIAL_BOARD)
+  if(BOARD_TIMED_HARDWARE)
+    list(APPEND classes TIMED_HARDWARE)
+  endif()
+  sonoglide_check_board(sonoglide_emulated_board ${BOARD_FOLDER}/${BOARD_MEMORY} ${classes})
   sonoglide_room(sonoglide_emulated_board ${BOARD_FOLDER}
     USES sonoglide_lockstep_board sonoglide_timed sonoglide_processor)
   sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}

@@ -10,6 +10,7 @@ if(TARGET sonoglide::start)
 endif()
 
 include("${CMAKE_CURRENT_LIST_DIR}/sonoglideChecksum.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/sonoglideBoardClass.cmake")
 
 add_library(sonoglide::start INTERFACE IMPORTED)
 target_sources(sonoglide::start INTERFACE
@@ -39,7 +40,18 @@ function(sonoglide_timed_board name)
       message(FATAL_ERROR "sonoglide_timed_board(${name}): ${argument} is missing")
     endif()
   endforeach()
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(arm|riscv)$")
+    message(FATAL_ERROR "sonoglide_timed_board(${name}): this is a build for ${CMAKE_SYSTEM_PROCESSOR}; allowed: a "
+      "CMAKE_TOOLCHAIN_FILE of Sonoglide's folder toolchains, or one that sets CMAKE_SYSTEM_PROCESSOR to arm or riscv")
+  endif()
+  get_filename_component(header "${BOARD_HEADER}" ABSOLUTE)
+  if(EXISTS "${header}")  # else the compiler may find it elsewhere
+    sonoglide_require_class("sonoglide_timed_board(${name})" HARDWARE "${BOARD_HARDWARE}" "${header}")
+  endif()
   get_filename_component(memory "${BOARD_MEMORY}" ABSOLUTE)
+  if(NOT EXISTS "${memory}")
+    message(FATAL_ERROR "sonoglide_timed_board(${name}): MEMORY ${BOARD_MEMORY}: there is no ${memory}")
+  endif()
   foreach(folder IN LISTS BOARD_CONTROLLERS)
     get_filename_component(folder "${folder}" ABSOLUTE)
     if(NOT EXISTS "${folder}/controller_configuration.hpp")

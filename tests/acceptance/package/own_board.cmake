@@ -28,6 +28,7 @@ function(refused from to reason)
   file(READ "${project}/CMakeLists.txt" text)
   string(REPLACE "${from}" "${to}" text "${text}")
   file(WRITE "${spoilt}/CMakeLists.txt" "${text}")
+  file(COPY "${project}/hal" DESTINATION "${spoilt}")
   execute_process(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${spoilt}" -B "${spoilt}/build"
       "-DCMAKE_PREFIX_PATH=${FOLDER}/prefix" "-DCMAKE_TOOLCHAIN_FILE=${data}/toolchains/${NAME}.cmake"
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -40,4 +41,7 @@ endfunction()
 
 refused("  CONTROLLERS controller" "" "sonoglide_timed_board(product): CONTROLLERS is missing")
 refused("MEMORY hal" "MEMROY hal" "sonoglide_timed_board(product): unknown: MEMROY;hal/template/memory.ld; there are HEADER")
+refused("::Hardware" "::Hardwear"
+  "sonoglide_timed_board(product): HARDWARE sonoglide::hal::template_board::Hardwear: there is no Hardwear in")
+refused("memory.ld" "memroy.ld" "sonoglide_timed_board(product): MEMORY hal/template/memroy.ld: there is no")
 refused("controller)" "elsewhere)" "elsewhere has no controller_configuration.hpp: sonoglide configure SCENE --out")
