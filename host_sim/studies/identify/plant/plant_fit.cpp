@@ -17,10 +17,6 @@ namespace {
 
 constexpr double open = std::numeric_limits<double>::quiet_NaN();
 
-// How far the springs are tried whose modes noise hides: of the logarithm, to either side.
-constexpr double first_reach = 0.06;
-constexpr double widest_reach = 8.0 * first_reach;
-
 /// The friction limit follows from the readings without a drive, whatever else the plant is.
 /// @throws loop::ComputationError  they are those of no sliding contact
 Eigen::VectorXd with_undriven_friction(const PlantProblem& problem,
@@ -83,15 +79,18 @@ void add_estimate(const Unknown& unknown, double value, const Interval& interval
   }
 }
 
-/// @param possible  parameters that the readings do not tell from the fit's
+/// @param springs  that the readings do not tell from the fit's
 void add_estimates(const PlantProblem& problem, const LeastSquaresFit& fit,
-                   const std::vector<Eigen::VectorXd>& possible, const Deviations& deviations,
-                   PlantFit& found) {
+                   const PossibleSprings& springs, const Deviations& deviations, PlantFit& found) {
   for (std::size_t i = 0; i < problem.unknowns().size(); ++i) {
     const Unknown& unknown = problem.unknowns()[i];
+    if (i == 0 && springs.is_cut) {
+      found.identification.parameters.push_back({unknown.key, open, open, open});
+      continue;
+    }
     const double half = deviations.student * deviations.of_parameters(static_cast<Eigen::Index>(i));
     Interval all = interval(unknown, problem.value(fit.parameters, i), half);
-    for (const Eigen::VectorXd& parameters : possible) {
+    for (const Eigen::VectorXd& parameters : springs.parameters) {
       const Interval its = interval(unknown, problem.value(parameters, i), half);
       all = {std::min(all.low, its.low), std::max(all.high, its.high)};
     }
@@ -125,31 +124,33 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) 
        {!fit.converged, "The fit has not converged: no value is sure."}});
 }
 
-/// Springs that fit as well as the best one within the noise. The range is doubled while its ends are among them;
-/// where a better spring is met, it is that of the fit.
-std::vector<Eigen::VectorXd> scanned_springs(const PlantProblem& problem,
-                                             const std::vector<Stretch>& stretches,
-                                             const Expected& expected, LeastSquaresFit& fit,
-                                             Identification& told) {
-  PossibleSprings springs;
-  double reach = first_reach / 2.0;
-  do {
-    reach *= 2.0;
-    const SpringScan scan(problem, fit, reach);
-    const LeastSquaresFit another = problem.fit(scan.best(), PlantProblem::all_steps);
-    if (another.sum_of_squares < fit.sum_of_squares) {
-      fit = problem.polished(another);
-    }
-    springs = scan.possible(fit, plant::deviations(fit, problem.slopes(fit), stretches, expected));
-  } while (springs.is_cut && reach < widest_reach);
-  told.cannot_tell.push_back(fmt::format(
-      "{}: noise hides the natural mode, so that the levels of friction alone tell the spring. "
-      "Springs from {:.3g} to {:.3g} times the one found were tried{}; one beyond, such as on the "
-      "other side of the carrier frequency, may give the same levels. Readings with less noise "
-      "would tell; until then load no unit of commissioned.toml.",
-      problem.unknowns().front().key, std::exp(-reach), std::exp(reach),
-      springs.is_cut ? ", and the last of them are as possible" : ""));
-  return springs.parameters;
+/// The springs that the readings allow where noise hides the natural mode. The fit becomes the best of all that were
+/// tried; where they leave the spring open, one with the spring next to the scene's.
+PossibleSprings hidden_springs(const PlantProblem& problem, const SpringScan& scan,
+                               LeastSquaresFit& fit, Identification& told) {
+  const LeastSquaresFit another =
+      problem.polished(problem.fit(scan.best(), PlantProblem::all_steps));
+  if (another.sum_of_squares < fit.sum_of_squares) {
+    fit = another;
+  }
+  PossibleSprings springs = scan.possible(fit);
+  const std::string hidden =
+      fmt::format("{}: noise hides the natural mode", problem.unknowns().front().key);
+  const std::string range =
+      fmt::format("{:.3g} to {:.3g} times the scene's", springs.least, springs.most);
+  if (springs.is_cut) {
+    fit = problem.polished(problem.at(springs.nearest), 1);
+    told.cannot_tell.push_back(fmt::format(
+        "{}, and springs from {} or beyond may give these readings. Readings with less noise would tell.",
+        hidden, range));
+  } else {
+    told.cannot_tell.push_back(fmt::format(
+        "{}, so that the levels of friction help to tell the spring. The interval has all from {} that may give these "
+        "readings. A spring below {:.2g} or above {:.2g} times, such as on the other side of the carrier frequency, may "
+        "give them too.",
+        hidden, range, std::exp(-SpringScan::reach), std::exp(SpringScan::reach)));
+  }
+  return springs;
 }
 
 }  // namespace
@@ -158,20 +159,21 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
                    const std::function<void(double)>& progress) {
   const Expected expected = plant::expected(nominal.nominal.sensor);
   const PlantProblem problem(nominal, stretches);
-  LeastSquaresFit fit =
-      best_fit(problem, with_undriven_friction(problem, nominal, stretches.front()),
-               [&](double part) { progress(0.5 * part); });
+  const Eigen::VectorXd start = with_undriven_friction(problem, nominal, stretches.front());
+  LeastSquaresFit fit = best_fit(problem, start, [&](double part) { progress(0.5 * part); });
   PlantFit found;
   found.identification.subject = "plant";
   found.identification.model = "the plant of the scene";
   found.expected_rms = expected.deviation();
-  std::vector<Eigen::VectorXd> possible;
+  PossibleSprings springs;
   if (!swings_are_plain(problem, fit, expected.deviation())) {
-    possible = scanned_springs(problem, stretches, expected, fit, found.identification);
+    const SpringScan scan(problem, start, expected.deviation(),
+                          [&](double part) { progress(0.5 + 0.5 * part); });
+    springs = hidden_springs(problem, scan, fit, found.identification);
   }
   progress(1.0);
   const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
-  add_estimates(problem, fit, possible, deviations, found);
+  add_estimates(problem, fit, springs, deviations, found);
   add_warnings(fit, readings(stretches.front()).mean(), found);
   Eigen::Index first = 0;
   for (const Stretch& each : stretches) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/scene_file/echo.hpp"
@@ -209,37 +210,81 @@ Eigen::MatrixXd PlantProblem::slopes(const LeastSquaresFit& fit) const {
   return columns;
 }
 
-/// @param step  as slopes() counts it
-Eigen::VectorXd PlantProblem::moved(const LeastSquaresFit& fit, const Eigen::VectorXd& step) const {
-  Eigen::VectorXd parameters = fit.parameters + step;
+Eigen::VectorXd PlantProblem::moved(Eigen::VectorXd parameters, const Eigen::VectorXd& step) const {
+  const Eigen::VectorXd before = parameters;
+  parameters += step;
   for (std::size_t i = 0; i < unknowns_.size(); ++i) {
     if (unknowns_[i].unit > 0.0) {
       const auto at = static_cast<Eigen::Index>(i);
-      const double number = value(fit.parameters, i) + step(at) * unknowns_[i].unit;
+      const double number = value(before, i) + step(at) * unknowns_[i].unit;
       parameters(at) = std::log(std::max(number, unknowns_[i].least));
     }
   }
   return parameters;
 }
 
-LeastSquaresFit PlantProblem::polished(LeastSquaresFit fit) const {
+double PlantProblem::turn_of_a_step(const Eigen::VectorXd& parameters) const {
+  const double natural_rad_per_s = std::sqrt(value(parameters, 0) / nominal_.nominal.plant.mass_kg);
+  return natural_rad_per_s * nominal_.design->scales.step_period_s();
+}
+
+double PlantProblem::longest_turn(const Eigen::VectorXd& parameters) const {
+  std::size_t longest = 0;
+  for (const Stretch& each : stretches_) {
+    longest = std::max(longest, each.steps.size());
+  }
+  return turn_of_a_step(parameters) * static_cast<double>(longest);
+}
+
+Eigen::MatrixXd PlantProblem::turned(Eigen::MatrixXd slopes, const Eigen::VectorXd& parameters,
+                                     double moved) const {
+  const double radians = turn_of_a_step(parameters) * std::expm1(0.5 * moved);
+  for (const Part& part : parts(all_steps)) {
+    if (part.swing < 0) {
+      continue;
+    }
+    for (Eigen::Index i = 0; i < part.steps; ++i) {
+      const std::complex<double> turn = std::polar(1.0, radians * static_cast<double>(i));
+      double& in_phase = slopes(part.first + i, part.swing);
+      double& quadrature = slopes(part.first + i, part.swing + 1);
+      const std::complex<double> both = std::complex<double>(in_phase, -quadrature) * turn;
+      in_phase = both.real();
+      quadrature = -both.imag();
+    }
+  }
+  return slopes;
+}
+
+LeastSquaresFit PlantProblem::at(const Eigen::VectorXd& parameters) const {
+  const Eigen::VectorXd residuals = this->residuals(parameters, all_steps);
+  return {parameters, residuals, jacobian(parameters, residuals, all_steps),
+          residuals.squaredNorm(), true};
+}
+
+LeastSquaresFit PlantProblem::polished(LeastSquaresFit fit, Eigen::Index from) const {
   constexpr int most_steps = 8;
   constexpr double enough = 0.999;
-  for (int i = 0; i < most_steps; ++i) {
-    const Eigen::VectorXd step = -slopes(fit).colPivHouseholderQr().solve(fit.residuals);
+  constexpr double shorter = 0.25;
+  constexpr double shortest = 0.05;
+  double part = 1.0;
+  for (int i = 0; i < most_steps && part >= shortest; ++i) {
+    const Eigen::MatrixXd free = slopes(fit).rightCols(fit.parameters.size() - from);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(fit.parameters.size());
+    step.tail(free.cols()) = -free.colPivHouseholderQr().solve(fit.residuals);
     if (!step.allFinite()) {
       break;
     }
-    const Eigen::VectorXd next = moved(fit, step);
-    const Eigen::VectorXd residuals = this->residuals(next, all_steps);
-    const double sum = residuals.squaredNorm();
-    if (sum >= enough * fit.sum_of_squares) {
+    LeastSquaresFit next = fit;
+    do {
+      next.parameters = moved(fit.parameters, part * step);
+      next.residuals = residuals(next.parameters, all_steps);
+      next.sum_of_squares = next.residuals.squaredNorm();
+    } while (next.sum_of_squares >= fit.sum_of_squares && (part *= shorter) >= shortest);
+    if (next.sum_of_squares >= enough * fit.sum_of_squares) {
       break;
     }
-    fit.parameters = next;
-    fit.residuals = residuals;
-    fit.sum_of_squares = sum;
-    fit.jacobian = jacobian(next, residuals, all_steps);
+    next.jacobian = jacobian(next.parameters, next.residuals, all_steps);
+    fit = std::move(next);
   }
   return fit;
 }

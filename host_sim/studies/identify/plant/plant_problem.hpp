@@ -73,9 +73,24 @@ class PlantProblem {
   /// The best fit near a start.
   LeastSquaresFit fit(const Eigen::VectorXd& start, std::size_t after) const;
 
+  /// What parameters leave of all steps, as if they were fitted.
+  LeastSquaresFit at(const Eigen::VectorXd& parameters) const;
+
   /// A fit of all steps made better where a number may be 0, which its logarithm never comes to: Gauss-Newton
   /// steps in that number itself.
-  LeastSquaresFit polished(LeastSquaresFit fit) const;
+  /// @param from  parameters before it are held
+  LeastSquaresFit polished(LeastSquaresFit fit, Eigen::Index from = 0) const;
+
+  /// @param step  as slopes() counts it
+  Eigen::VectorXd moved(Eigen::VectorXd parameters, const Eigen::VectorXd& step) const;
+
+  /// What the natural mode turns by in the longest stretch [rad].
+  double longest_turn(const Eigen::VectorXd& parameters) const;
+
+  /// Slopes at parameters whose spring is then moved by so much of its logarithm: the mode turns at another speed,
+  /// and the slopes to its swings with it.
+  Eigen::MatrixXd turned(Eigen::MatrixXd slopes, const Eigen::VectorXd& parameters,
+                         double moved) const;
 
  private:
   /// The part of the residuals that is one stretch's.
@@ -86,7 +101,7 @@ class PlantProblem {
     Eigen::Index steps;
   };
   std::vector<Part> parts(std::size_t after) const;
-  Eigen::VectorXd moved(const LeastSquaresFit& fit, const Eigen::VectorXd& step) const;
+  double turn_of_a_step(const Eigen::VectorXd& parameters) const;
   Eigen::VectorXd residuals(const std::optional<scene::Scene>& plant,
                             const Eigen::VectorXd& parameters, const Part& part) const;
   /// Of the residuals to the parameters from one on.

@@ -8,7 +8,6 @@
 
 #include "host_sim/studies/identify/least_squares.hpp"
 #include "host_sim/studies/identify/plant/plant_problem.hpp"
-#include "host_sim/studies/identify/plant/uncertainty.hpp"
 
 namespace sonoglide::identify::plant {
 
@@ -22,31 +21,44 @@ LeastSquaresFit best_fit(const PlantProblem& problem, const Eigen::VectorXd& sta
 /// @param expected  deviation of a reading
 bool swings_are_plain(const PlantProblem& problem, const LeastSquaresFit& fit, double expected);
 
+/// With the other parameters as they are best with each.
 struct PossibleSprings {
   std::vector<Eigen::VectorXd> parameters;
-  bool is_cut = false;  ///< one at an end of the scan is among them
+  Eigen::VectorXd nearest{};  ///< to the scene's
+  double least = 0.0;         ///< over the scene's
+  double most = 0.0;          ///< likewise
+  bool is_cut = false;        ///< one at an end of the scan is among them
 };
 
-/// Springs about that of a fit, each with the other unknowns and what the stretches swing by as they are best with
-/// it, but for a mode that rings on through every stretch.
+/// Springs about that of the scene, each with the other unknowns and what the stretches swing by as they are best
+/// with it. Where noise hides the mode, many of them fit as well by swings that are none.
 class SpringScan {
  public:
-  /// @param reach  to either side, of the logarithm of the spring
-  SpringScan(const PlantProblem& problem, const LeastSquaresFit& fit, double reach);
+  static constexpr double reach = 0.48;  ///< to either side, of the logarithm of the spring
+
+  /// @param start     of each but for the spring
+  /// @param expected  deviation of a reading
+  SpringScan(const PlantProblem& problem, const Eigen::VectorXd& start, double expected,
+             const std::function<void(double)>& progress);
 
   const Eigen::VectorXd& best() const;
 
-  /// Those that the readings do not tell from the fit. The largest of so many sums of as many squares of noise as a
-  /// mode has numbers is by more above the true one's than where a single mode is in question.
-  PossibleSprings possible(const LeastSquaresFit& fit, const Deviations& deviations) const;
+  /// The fit's, and those that the readings do not tell from it.
+  PossibleSprings possible(const LeastSquaresFit& fit) const;
 
  private:
-  static constexpr double step = 2.5e-4;
   struct Place {
     double sum_of_squares;
     Eigen::VectorXd parameters;
   };
+  std::vector<LeastSquaresFit> coarse_fits(const PlantProblem& problem,
+                                           const Eigen::VectorXd& start) const;
+  void add_near(const PlantProblem& problem, const LeastSquaresFit& coarse);
+  /// Sum of squares up to which one of so many springs is possible beside a fit.
+  double highest_possible(const LeastSquaresFit& fit, std::size_t springs) const;
 
+  double stated_;  ///< logarithm of the scene's spring
+  double expected_;
   std::vector<Place> places_;
 };
 

@@ -62,7 +62,7 @@ Deviations deviations(const LeastSquaresFit& fit, const Eigen::MatrixXd& slopes,
   const double variance = factor * std::max(seen, std::pow(expected.deviation(), 2));
   const Eigen::MatrixXd covariance =
       variance * inverse + rounding_covariance(slopes, inverse, stretches, expected);
-  return {covariance.diagonal().cwiseSqrt(), student_t_95(std::max(n / factor - p, 1.0)), variance,
+  return {covariance.diagonal().cwiseSqrt(), student_t_95(std::max(n / factor - p, 1.0)),
           covariance};
 }
 

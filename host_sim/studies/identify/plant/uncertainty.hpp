@@ -28,8 +28,7 @@ double correlation_factor(const Eigen::VectorXd& residuals);
 
 struct Deviations {
   Eigen::VectorXd of_parameters;
-  double student;   ///< as many of them reach to the ends of a 95 % interval
-  double variance;  ///< of a residual, if residuals were independent
+  double student;  ///< as many of them reach to the ends of a 95 % interval
   Eigen::MatrixXd covariance;
 };
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/studies/identify/plant/study.hpp"
@@ -55,12 +56,16 @@ TEST(IdentifiedPlants, OneIsAsRecorded) {
   EXPECT_EQ(found.commissioned, row.number("prompt_commissioned"));
 }
 
+PlantStudy found_in_noise(const std::vector<std::string>& sensor) {
+  const configure::Experiment scene = experiment::read_file(SCENES "noisy_sensor.toml", sensor);
+  return study(scene, test::recorded(scene, targets(scene.nominal), 1024, 32), [](double) {});
+}
+
+constexpr const char* hidden = "plant.stiffness_N_per_m: noise hides the natural mode";
+
 /// Noise hides the natural mode: many springs are possible, and the interval has them.
 TEST(IdentifiedPlants, WhatNoiseHidesIsNotToldTightly) {
-  const configure::Experiment scene =
-      experiment::read_file(SCENES "noisy_sensor.toml", {"sensor.seed=4"});
-  const PlantStudy found =
-      study(scene, test::recorded(scene, targets(scene.nominal), 1024, 32), [](double) {});
+  const PlantStudy found = found_in_noise({"sensor.seed=4"});
   const Estimate& spring = found.fit.identification.parameters.front();
   EXPECT_EQ(spring.name, "plant.stiffness_N_per_m");
   EXPECT_LT(spring.low_95, 133e6);
@@ -68,7 +73,21 @@ TEST(IdentifiedPlants, WhatNoiseHidesIsNotToldTightly) {
   EXPECT_TRUE(found.fit.changed.empty());
   // Another spring may give the same levels: that is said.
   const std::string& open = found.fit.identification.cannot_tell.front();
-  EXPECT_EQ(open.find("plant.stiffness_N_per_m: noise hides the natural mode"), 0U) << open;
+  EXPECT_EQ(open.find(hidden), 0U) << open;
+}
+
+/// With ten times the noise springs 50 % away fit as well: none is told.
+TEST(IdentifiedPlants, ASpringThatNoiseLeavesOpenStaysThatOfTheScene) {
+  const PlantStudy found = found_in_noise({"sensor.seed=4", "sensor.force_noise_N=1e-3"});
+  const Estimate& spring = found.fit.identification.parameters.front();
+  EXPECT_EQ(spring.name, "plant.stiffness_N_per_m");
+  EXPECT_TRUE(std::isnan(spring.value) && std::isnan(spring.low_95) && std::isnan(spring.high_95));
+  EXPECT_TRUE(found.fit.changed.empty());
+  const std::string& open = found.fit.identification.cannot_tell.front();
+  EXPECT_EQ(open.find(hidden), 0U) << open;
+  EXPECT_NE(found.scene.find("# Left as it was: " + open), std::string::npos);
+  EXPECT_EQ(experiment::read_text(found.scene, "commissioned.toml").nominal.plant.stiffness_N_per_m,
+            133e6);
 }
 
 }  // namespace
