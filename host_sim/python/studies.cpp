@@ -15,6 +15,7 @@
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
 #include "host_sim/runs/run_many.hpp"
+#include "host_sim/studies/commission/commission.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
 #include "host_sim/studies/identify/impedance/study.hpp"
@@ -74,6 +75,14 @@ Found identify_impedance(const scene_file::Source& sweep, const std::optional<do
   return {text_of(identify::to_json(found.identification)), found.scene};
 }
 
+Found commission_unit(const std::string& device, const Scene& scene) {
+  identify::plant::require_identifiable(scene.experiment);
+  const py::gil_scoped_release released;
+  const identify::plant::PlantStudy found =
+      commission::study(device, scene.experiment, [](double) {});
+  return {text_of(identify::to_json(found.fit.identification)), found.scene};
+}
+
 Found find_worst(const Scene& scene, std::size_t samples, std::size_t search, std::uint64_t seed,
                  unsigned threads) {
   require(samples > 0 && samples <= robust::most_samples, "samples", samples,
@@ -117,6 +126,7 @@ void add_studies(py::module_& module) {
       }));
   module.def("identify_friction", &identify_friction);
   module.def("identify_impedance", &identify_impedance);
+  module.def("commission", &commission_unit);
   const robust::Counts counts;
   module.def("robust", &find_worst, py::arg("scene"), py::kw_only(),
              py::arg("samples") = counts.samples, py::arg("search") = counts.search,

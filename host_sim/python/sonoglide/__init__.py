@@ -12,6 +12,7 @@ from ._run import Columns, Run, friction_ratio, rollout, run
 from ._scene import Scene, notebooks, scenes
 from ._studies import (
     Study,
+    commission,
     configure,
     design,
     fmu,
@@ -33,6 +34,7 @@ __all__ = [
     "Study",
     "Unit",
     "__version__",
+    "commission",
     "configure",
     "design",
     "fmu",

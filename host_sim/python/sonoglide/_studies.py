@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from os import PathLike
+from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
@@ -177,6 +177,20 @@ def identify(kind: str, measured: Measurements, **options: Any) -> Study:
     if kind not in functions:
         raise ValueError(f"kind is {kind!r}; allowed: {', '.join(functions)}")
     return functions[kind](measured, **options)
+
+
+def commission(device: str | PathLike[str], scene: Scene) -> Study:
+    """Drives a running unit through some targets and fits the scene's plant to what it records, as
+    `sonoglide commission`; friction falls meanwhile, and at the end the unit is stopped. -> the content
+    of identify.json; its scene is that of commissioned.toml
+
+    device  path of the unit's serial device; no Port may hold it meanwhile
+    scene   the one that the unit's image was built from
+
+    OSError: the device is absent or silent, or a unit of another scene. ValueError: a scene whose plant
+    cannot be identified; the message has the key.
+    """
+    return Study(*_core.commission(fspath(device), scene), name="commissioned")
 
 
 def configure(scene: Scene, plant: str | None = None) -> dict[str, str]:

@@ -145,6 +145,21 @@ def test_what_is_no_unit_is_named(device):
         sonoglide.Port(device)
 
 
+def test_what_cannot_be_commissioned_is_named(scene):
+    with pytest.raises(OSError, match="no_such_device"):
+        sonoglide.commission("no_such_device", scene("target_step"))
+    with pytest.raises(ValueError, match=r"sensor\.force: .*; required: true"):
+        sonoglide.commission("no_such_device", scene("wire_bonder"))
+
+
+def test_a_unit_of_another_scene_is_not_commissioned(image, scene):
+    with running(image) as port:
+        device = port.device
+        del port
+        with pytest.raises(OSError, match=f"{device}: the unit has another design than the scene"):
+            sonoglide.commission(device, scene("target_step", {"plant.stiffness_N_per_m": 120e6}))
+
+
 def test_patience_has_a_range():
     with pytest.raises(ValueError, match="patience_s is 0; allowed: above 0"):
         sonoglide.Port("/dev/null", 0.0)
