@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <csignal>
 #include <cstdint>
 #include <memory>
 #include <random>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
@@ -93,10 +93,25 @@ scene::Scene scene_of(const std::string& controller) {
   return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").plant;
 }
 
-/// An image on a board: (board, controller).
-class Image : public testing::TestWithParam<std::tuple<std::string, std::string>> {
+struct BoardImage {
+  std::string board;
+  std::string controller;
+};
+
+/// Of words BOARD/CONTROLLER.
+std::vector<BoardImage> images(const std::vector<std::string>& words) {
+  std::vector<BoardImage> all;
+  for (const std::string& word : words) {
+    const std::size_t slash = word.find('/');
+    all.push_back({word.substr(0, slash), word.substr(slash + 1)});
+  }
+  return all;
+}
+
+/// An image on a board.
+class Image : public testing::TestWithParam<BoardImage> {
  protected:
-  Image() : Image(std::get<0>(GetParam()), std::get<1>(GetParam())) {}
+  Image() : Image(GetParam().board, GetParam().controller) {}
   Image(const std::string& board, const std::string& controller)
       : scene_(scene_of(controller)), board_(emulate(board, image(board, controller)), 60s) {}
 
@@ -184,16 +199,14 @@ std::string test_name_of(std::string board) {
   std::replace(board.begin(), board.end(), '-', '_');
   return board;
 }
+std::string image_name(const testing::TestParamInfo<BoardImage>& tested) {
+  return test_name_of(tested.param.board) + "_" + tested.param.controller;
+}
 
-INSTANTIATE_TEST_SUITE_P(Boards, Image,
-                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
-                                          testing::Values(SONOGLIDE_DRIVEN_IMAGES)),
-                         [](const auto& parameter) {
-                           return test_name_of(std::get<0>(parameter.param)) + "_" +
-                                  std::get<1>(parameter.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Boards, Image, testing::ValuesIn(images({SONOGLIDE_DRIVEN_IMAGES})),
+                         image_name);
 
-/// A unit that observes the vibration: (board, controller).
+/// A unit that observes the vibration.
 class ObservingImage : public Image {};
 
 TEST_P(ObservingImage, AnswersAnyConverterCodeAsTheHostDoes) {
@@ -230,14 +243,9 @@ TEST_P(ObservingImage, FaultsOnAVibrationAtTheRail) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, ObservingImage,
-                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
-                                          testing::Values(SONOGLIDE_OBSERVING_IMAGES)),
-                         [](const auto& parameter) {
-                           return test_name_of(std::get<0>(parameter.param)) + "_" +
-                                  std::get<1>(parameter.param);
-                         });
+                         testing::ValuesIn(images({SONOGLIDE_OBSERVING_IMAGES})), image_name);
 
-/// A unit that answers with a bias: (board, controller).
+/// A unit that answers with a bias.
 class BiasedImage : public Image {
  protected:
   hal::BiasedDrive exchange(const hal::MotionSample& sample) {
@@ -288,13 +296,8 @@ TEST_P(BiasedImage, HasNoBiasAfterASampleThatDidNotArrive) {
   EXPECT_EQ(drive.fault, static_cast<std::uint8_t>(control::Fault::measurement_missing));
 }
 
-INSTANTIATE_TEST_SUITE_P(Boards, BiasedImage,
-                         testing::Combine(testing::ValuesIn(emulated::tested_boards()),
-                                          testing::Values(SONOGLIDE_BIASED_IMAGES)),
-                         [](const auto& parameter) {
-                           return test_name_of(std::get<0>(parameter.param)) + "_" +
-                                  std::get<1>(parameter.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Boards, BiasedImage, testing::ValuesIn(images({SONOGLIDE_BIASED_IMAGES})),
+                         image_name);
 
 /// A board whose image speaks over its serial line.
 class SerialImage : public testing::TestWithParam<std::string> {
