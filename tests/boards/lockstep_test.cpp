@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <random>
