@@ -104,6 +104,16 @@ class Fixed {
     return lower_end ? lowest() : largest();
   }
 
+  /// The same, of a sum that has wrapped to this. It is computed: for each constant a compiler would make a copy of
+  /// what follows.
+  static constexpr Fixed beyond_wrapped(std::int32_t sum) {
+    Overflow::on_overflow();
+    if (!__builtin_is_constant_evaluated()) {
+      keep_branch(sum);
+    }
+    return from_raw(static_cast<Storage>((sum >> 31) ^ lowest().raw_));
+  }
+
   /// For constants and for the host; NaN is an overflow and gives 0.
   static constexpr Fixed from_real(double value) {
     const double scaled = value * unit;
@@ -127,11 +137,11 @@ class Fixed {
 
   friend constexpr Fixed operator+(Fixed a, Fixed b) {
     Storage sum = 0;
-    return __builtin_add_overflow(a.raw_, b.raw_, &sum) ? beyond(a.raw_ < 0) : from_raw(sum);
+    return __builtin_add_overflow(a.raw_, b.raw_, &sum) ? beyond_wrapped(sum) : from_raw(sum);
   }
   friend constexpr Fixed operator-(Fixed a, Fixed b) {
     Storage difference = 0;
-    return __builtin_sub_overflow(a.raw_, b.raw_, &difference) ? beyond(a.raw_ < 0)
+    return __builtin_sub_overflow(a.raw_, b.raw_, &difference) ? beyond_wrapped(difference)
                                                                : from_raw(difference);
   }
   friend constexpr Fixed operator-(Fixed a) { return Fixed() - a; }
@@ -142,15 +152,20 @@ class Fixed {
                                      : from_raw(rounded_q31_product_of_halves(a.raw_, b.raw_));
     } else if constexpr (is_q31) {
       // Of all products only that of -1 and -1 leaves the range, and no other one gives -1.
-      const auto raw = static_cast<Storage>(rounded_product(a, b));
-      return raw == std::numeric_limits<Storage>::min() ? beyond(false) : from_raw(raw);
+      const Storage raw = rounded_q31_product(a.raw_, b.raw_);
+      Storage below = 0;
+      if (__builtin_sub_overflow(raw, 1, &below)) {
+        Overflow::on_overflow();
+        return from_raw(below);  // the largest
+      }
+      return from_raw(raw);
     } else {
       return from_wide(rounded_product(a, b));
     }
   }
   friend constexpr Fixed operator/(Fixed a, Fixed b) {
-    if constexpr (is_q31 && !has_wide_product) {
-      return divided_by_digits(a, b);
+    if constexpr (is_q31) {
+      return divided(a, b);
     } else {
       return b.raw_ == 0 ? divided_by_zero(a) : from_wide(rounded_quotient(a, b));
     }
@@ -182,9 +197,9 @@ class Fixed {
   static constexpr double unit = static_cast<double>(std::int64_t{1} << FractionBits);
   static constexpr bool is_q31 = FractionBits == 31;
 
-  /// A library's division takes twice as long. Out of line, because a step seldom divides.
-  [[gnu::noinline, gnu::cold]] static constexpr Fixed divided_by_digits(Fixed a, Fixed b) {
-    return b.raw_ == 0 ? divided_by_zero(a) : from_wide(quotient_by_digits(a.raw_, b.raw_));
+  /// Out of line, because a step seldom divides.
+  [[gnu::noinline, gnu::cold]] static constexpr Fixed divided(Fixed a, Fixed b) {
+    return b.raw_ == 0 ? divided_by_zero(a) : from_wide(q31_quotient(a.raw_, b.raw_));
   }
 
   static constexpr Wide rounded_quotient(Fixed a, Fixed b) {

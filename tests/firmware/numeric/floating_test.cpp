@@ -66,13 +66,13 @@ std::int64_t rounded_quotient(std::int32_t a, std::int32_t b) {
   return static_cast<std::int64_t>(quotient - (dividend % divisor < 0 ? 1 : 0));
 }
 
-TEST(WordQuotient, ByDigitsIsTheRoundedOne) {
+TEST(WordQuotient, IsTheRoundedOne) {
   Words words;
   const std::int32_t ends[] = {INT32_MIN, INT32_MIN + 1, -3,       -2, -1, 1, 2, 3,
                                5,         INT32_MAX - 1, INT32_MAX};
   const auto expect_rounded = [](std::int32_t a, std::int32_t b) {
     const std::int64_t expected = rounded_quotient(a, b);
-    const std::int64_t found = quotient_by_digits(a, b);
+    const std::int64_t found = q31_quotient(a, b);
     if (std::int64_t{INT32_MIN} <= expected && expected <= INT32_MAX) {
       ASSERT_EQ(found, expected) << a << " / " << b;
     } else {
@@ -91,6 +91,20 @@ TEST(WordQuotient, ByDigitsIsTheRoundedOne) {
     for (const std::int32_t b : ends) {
       expect_rounded(a, b);
       expect_rounded(0, b);
+    }
+  }
+}
+
+TEST(WordQuotient, ByBitsAndByHalvesIsTheSameFraction) {
+  Words words;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const auto x = static_cast<std::uint32_t>(words.next()) >> (1 + i % 31);
+    const auto y = static_cast<std::uint32_t>(words.next()) >> (1 + i / 31 % 31);
+    const auto [a, b] = std::minmax(x, y);
+    if (a < b) {
+      const auto exact = static_cast<std::uint32_t>((std::uint64_t{a} << 32) / b);
+      ASSERT_EQ(fraction_by_bits(a, b), exact) << a << " / " << b;
+      ASSERT_EQ(fraction_by_halves(a, b), exact) << a << " / " << b;
     }
   }
 }
