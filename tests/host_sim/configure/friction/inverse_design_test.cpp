@@ -81,6 +81,28 @@ scene::Scene random_loop(Dice& dice, const scene::FrictionLaw& law) {
   return scene;
 }
 
+struct Loop {
+  scene::Scene scene;
+  ControlDesign design;
+};
+
+constexpr int contacts = 10;
+
+/// Of each tabulated law, with the rest of the scene as a test has it.
+template <class Change>
+std::vector<Loop> random_loops(unsigned seed, const Change& change) {
+  std::vector<Loop> all;
+  Dice dice(seed);
+  for (const scene::FrictionLaw& law : tabulated_laws) {
+    for (int i = 0; i < contacts; ++i) {
+      scene::Scene scene = random_loop(dice, law);
+      change(scene);
+      all.push_back({scene, design_control(scene)});
+    }
+  }
+  return all;
+}
+
 /// The friction force times a factor, as a controller that learns its level takes it.
 scene::Friction at_level(const scene::Scene& scene, double factor) {
   scene::Friction contact = scene.friction;
@@ -107,9 +129,9 @@ struct Answer {
 template <class Scalar>
 class Feedforward {
  public:
-  explicit Feedforward(const scene::Scene& scene)
-      : scene_(scene),
-        design_(design_control(scene)),
+  explicit Feedforward(const Loop& loop)
+      : scene_(loop.scene),
+        design_(loop.design),
         parameters_(parameters(design_, Type<control::TabulatedFeedforward<Scalar>>{})),
         feedforward_(parameters_) {
     learn(1.0);
@@ -138,15 +160,12 @@ class Feedforward {
   bool resolves(double sliding_m_per_s) const {
     return sizeof(Scalar) > 2 || sliding_m_per_s > 0.05 * design_.scales.velocity_m_per_s;
   }
-  Answer answer(double ratio) const {
-    return answer(ratio, scene_.sliding.profile.front().velocity_m_per_s);
-  }
-
-  const ControlDesign& design() const { return design_; }
+  Answer answer(double ratio) const { return answer(ratio, fastest_m_per_s()); }
+  double fastest_m_per_s() const { return scene_.sliding.profile.front().velocity_m_per_s; }
 
  private:
-  scene::Scene scene_;
-  ControlDesign design_;
+  const scene::Scene& scene_;
+  const ControlDesign& design_;
   typename control::TabulatedFeedforward<Scalar>::Parameters parameters_;
   control::TabulatedFeedforward<Scalar> feedforward_;
   scene::Friction contact_;
@@ -177,47 +196,56 @@ void expect_ratio(const Answer& answer, double ratio, const ControlDesign& desig
   }
 }
 
-constexpr int contacts = 10;
+// Drawn once for all arithmetics: designing them takes long.
+
+const std::vector<Loop>& steady_loops() {
+  static const std::vector<Loop> all = random_loops(1, [](scene::Scene& /*scene*/) {});
+  return all;
+}
+
+const std::vector<Loop>& learning_loops() {
+  static const std::vector<Loop> all = random_loops(2, [](scene::Scene& scene) {
+    scene.controller->calibration_s = 5e-2;
+    scene.run.duration_s = 0.2;
+  });
+  return all;
+}
+
+const std::vector<Loop>& slowing_loops() {
+  static const std::vector<Loop> all = random_loops(3, [](scene::Scene& scene) {
+    scene.sliding.profile.push_back({1.0, 0.0});
+  });
+  return all;
+}
 
 TYPED_TEST(InverseDesignTest, GivesTheRatioOfAContactThatIsFollowed) {
   constexpr double bound = 0.008;
-  Dice dice(1);
-  for (const scene::FrictionLaw& law : tabulated_laws) {
-    for (int i = 0; i < contacts; ++i) {
-      const scene::Scene scene = random_loop(dice, law);
-      const Feedforward<TypeParam> feedforward(scene);
-      if (!feedforward.resolves(scene.sliding.profile.front().velocity_m_per_s)) {
-        continue;
-      }
-      for (const double ratio : {0.1, 0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 0.97}) {
-        expect_ratio(feedforward.answer(ratio), ratio, feedforward.design(),
-                     bound * feedforward.coarseness(), name(scene) + ' ' + std::to_string(i));
-      }
+  for (const Loop& loop : steady_loops()) {
+    const Feedforward<TypeParam> feedforward(loop);
+    if (!feedforward.resolves(feedforward.fastest_m_per_s())) {
+      continue;
+    }
+    for (const double ratio : {0.1, 0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 0.97}) {
+      expect_ratio(feedforward.answer(ratio), ratio, loop.design, bound * feedforward.coarseness(),
+                   name(loop.scene));
     }
   }
 }
 
 TYPED_TEST(InverseDesignTest, FollowsTheLevelThatIsLearnt) {
   constexpr double bound = 0.01;
-  Dice dice(2);
-  for (const scene::FrictionLaw& law : tabulated_laws) {
-    for (int i = 0; i < contacts; ++i) {
-      scene::Scene scene = random_loop(dice, law);
-      scene.controller->calibration_s = 5e-2;
-      scene.controller->target_friction_ratio = {{0.0, 0.9}};
-      scene.run.duration_s = 0.2;
-      Feedforward<TypeParam> feedforward(scene);
-      for (const double level : {0.55, 0.75, 1.0, 1.3, 1.9}) {
-        feedforward.learn(level);
-        if (!feedforward.resolves(scene.sliding.profile.front().velocity_m_per_s)) {
-          continue;
-        }
-        for (const double ratio : {0.25, 0.55, 0.8, 0.95}) {
-          const Answer answer = feedforward.answer(ratio);
-          if (level == 1.0 || !feedforward.design().inverse->least_ratio) {
-            expect_ratio(answer, ratio, feedforward.design(), bound * feedforward.coarseness(),
-                         name(scene) + ' ' + std::to_string(i) + ' ' + std::to_string(level));
-          }
+  for (const Loop& loop : learning_loops()) {
+    Feedforward<TypeParam> feedforward(loop);
+    for (const double level : {0.55, 0.75, 1.0, 1.3, 1.9}) {
+      feedforward.learn(level);
+      if (!feedforward.resolves(feedforward.fastest_m_per_s())) {
+        continue;
+      }
+      for (const double ratio : {0.25, 0.55, 0.8, 0.95}) {
+        const Answer answer = feedforward.answer(ratio);
+        if (level == 1.0 || !loop.design.inverse->least_ratio) {
+          expect_ratio(answer, ratio, loop.design, bound * feedforward.coarseness(),
+                       name(loop.scene) + ' ' + std::to_string(level));
         }
       }
     }
@@ -226,25 +254,20 @@ TYPED_TEST(InverseDesignTest, FollowsTheLevelThatIsLearnt) {
 
 TYPED_TEST(InverseDesignTest, FollowsTheSpeed) {
   constexpr double bound = 0.01;
-  Dice dice(3);
-  for (const scene::FrictionLaw& law : tabulated_laws) {
-    for (int i = 0; i < contacts; ++i) {
-      scene::Scene scene = random_loop(dice, law);
-      const double fastest_m_per_s = scene.sliding.profile.front().velocity_m_per_s;
-      scene.sliding.profile = {{0.0, fastest_m_per_s}, {1.0, 0.0}};
-      const Feedforward<TypeParam> feedforward(scene);
-      if (feedforward.design().inverse->least_ratio) {
-        continue;  // what cannot be reached is another at each speed
+  for (const Loop& loop : slowing_loops()) {
+    const Feedforward<TypeParam> feedforward(loop);
+    if (loop.design.inverse->least_ratio) {
+      continue;  // what cannot be reached is another at each speed
+    }
+    for (const double part : {0.9, 0.6, 0.35, 0.2}) {
+      const double sliding_m_per_s = part * feedforward.fastest_m_per_s();
+      if (!feedforward.resolves(sliding_m_per_s)) {
+        continue;
       }
-      for (const double part : {0.9, 0.6, 0.35, 0.2}) {
-        if (!feedforward.resolves(part * fastest_m_per_s)) {
-          continue;
-        }
-        for (const double ratio : {0.25, 0.55, 0.8, 0.95}) {
-          expect_ratio(feedforward.answer(ratio, part * fastest_m_per_s), ratio,
-                       feedforward.design(), bound * feedforward.coarseness(),
-                       name(scene) + ' ' + std::to_string(i) + ' ' + std::to_string(part));
-        }
+      for (const double ratio : {0.25, 0.55, 0.8, 0.95}) {
+        expect_ratio(feedforward.answer(ratio, sliding_m_per_s), ratio, loop.design,
+                     bound * feedforward.coarseness(),
+                     name(loop.scene) + ' ' + std::to_string(part));
       }
     }
   }
@@ -268,9 +291,10 @@ TEST(InverseDesignOfStribeckTest, StaysThisSideOfTheLeastRatio) {
       lowest_m_per_s = v;
     }
   }
-  const Feedforward<double> feedforward(scene);
-  ASSERT_TRUE(feedforward.design().inverse->least_ratio);
-  EXPECT_NEAR(*feedforward.design().inverse->least_ratio, lowest, 1e-4);
+  const Loop loop{scene, design_control(scene)};
+  const Feedforward<double> feedforward(loop);
+  ASSERT_TRUE(loop.design.inverse->least_ratio);
+  EXPECT_NEAR(*loop.design.inverse->least_ratio, lowest, 1e-4);
   for (const double above : {0.02, 0.1, 0.3}) {
     const Answer answer = feedforward.answer(lowest + above);
     EXPECT_LT(answer.vibration_m_per_s, lowest_m_per_s);
