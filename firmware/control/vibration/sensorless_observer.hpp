@@ -73,6 +73,8 @@ class SensorlessObserver {
         inverse_base_(parameters.inverse_base),
         slower_(parameters.slower),
         quieter_(parameters.quieter),
+        jacobian_base_(static_cast<std::uint8_t>(parameters.output_base + parameters.slower -
+                                                 parameters.quieter)),
         linear_(numeric::floating(parameters.linear)),
         row_(parameters.table) {
     restart();
@@ -225,7 +227,7 @@ class SensorlessObserver {
   }
 
   /// A velocity of SensorlessCovariance where jacobian() has it.
-  Scalar on_jacobian_base(Scalar x) const { return down(x, output_base_ + slower_ - quieter_); }
+  Scalar on_jacobian_base(Scalar x) const { return down(x, jacobian_base_); }
 
   /// x 2^-n; in floating point x, where n is 0.
   static Scalar down(Scalar x, int n) {
@@ -260,6 +262,8 @@ class SensorlessObserver {
   std::uint8_t inverse_base_;
   std::uint8_t slower_;
   std::uint8_t quieter_;
+  std::uint8_t
+      jacobian_base_;  ///< exponent of a velocity there, below that of SensorlessCovariance
   numeric::Floating<Scalar> linear_;
   SensorlessInterpolation<Scalar> row_;
   Pair<Scalar> mode_;
