@@ -1,4 +1,4 @@
-/// Words of 32 bits on processors that have no wide product and count no leading zeros.
+/// Products, quotients and widths of words of 32 bits, by the instructions that the processor has.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ inline constexpr bool has_wide_product = false;
 inline constexpr bool has_wide_product = true;
 #endif
 
-/// For a branch that is seldom taken: on Thumb-2 a compiler would turn a short one into instructions that are
-/// executed always, if only to have no effect.
+/// Keeps the branch that it stands in. Without it a compiler for Thumb-2 makes conditional instructions of a short
+/// branch, which take their time where the condition is false too.
 inline void keep_branch([[maybe_unused]] std::int32_t& result) {
 #if defined(__thumb2__)
   asm inline("" : "+r"(result));

@@ -79,7 +79,12 @@ Found commission_unit(const std::string& device, const Scene& scene) {
   identify::plant::require_identifiable(scene.experiment);
   const py::gil_scoped_release released;
   const identify::plant::PlantStudy found =
-      commission::study(device, scene.experiment, [](double) {});
+      commission::study(device, scene.experiment, [](double /*done*/) {
+        const py::gil_scoped_acquire held;
+        if (PyErr_CheckSignals() != 0) {
+          throw py::error_already_set();
+        }
+      });
   return {text_of(identify::to_json(found.fit.identification)), found.scene};
 }
 

@@ -40,9 +40,9 @@ function(sonoglide_timed_board name)
       message(FATAL_ERROR "sonoglide_timed_board(${name}): ${argument} is missing")
     endif()
   endforeach()
-  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(arm|riscv)$")
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(arm|riscv(32)?)$")
     message(FATAL_ERROR "sonoglide_timed_board(${name}): this is a build for ${CMAKE_SYSTEM_PROCESSOR}; allowed: a "
-      "CMAKE_TOOLCHAIN_FILE of Sonoglide's folder toolchains, or one that sets CMAKE_SYSTEM_PROCESSOR to arm or riscv")
+      "CMAKE_TOOLCHAIN_FILE of Sonoglide's folder toolchains, or one that sets CMAKE_SYSTEM_PROCESSOR to arm, riscv or riscv32")
   endif()
   get_filename_component(header "${BOARD_HEADER}" ABSOLUTE)
   if(EXISTS "${header}")  # else the compiler may find it elsewhere

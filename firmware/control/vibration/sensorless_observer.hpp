@@ -262,8 +262,8 @@ class SensorlessObserver {
   std::uint8_t inverse_base_;
   std::uint8_t slower_;
   std::uint8_t quieter_;
-  std::uint8_t
-      jacobian_base_;  ///< exponent of a velocity there, below that of SensorlessCovariance
+  /// jacobian() has velocities on a base larger by 2^this than SensorlessCovariance.
+  std::uint8_t jacobian_base_;
   numeric::Floating<Scalar> linear_;
   SensorlessInterpolation<Scalar> row_;
   Pair<Scalar> mode_;

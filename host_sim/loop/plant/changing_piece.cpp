@@ -56,7 +56,7 @@ const ChangingPlant::Piece& ChangingPlant::extrapolate(Piece next, int parts, Ta
 }
 
 /// Of the numbers that tell where the pieces end, in the size that the motion, the friction or a
-/// period's impulse has; the largest one, in what is allowed.
+/// period's impulse has; the largest one, as a multiple of what is allowed.
 double ChangingPlant::difference(const Piece& coarse, const Piece& fine) const {
   constexpr double rounding = 1e-12;
   const double allowed = std::max(rounding, share_of_tolerance * solver_.tolerance);

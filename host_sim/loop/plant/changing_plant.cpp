@@ -172,16 +172,19 @@ ChangingPlant::Piece ChangingPlant::in_steps(const Slope& slope, Sight* sight) {
   return all;
 }
 
-/// Each piece as long as the last ones let expect.
+/// The length of each piece follows from how the last one converged.
 ChangingPlant::Piece ChangingPlant::adapted(const Slope& slope, const Carried& begin,
                                             double offset_s, double length_s, Sight* sight) {
   const double period_s = numeric::two_pi / scales_.angular_frequency_rad_per_s;
+  // What rounding leaves of a stretch is no piece of its own.
+  const double rounding_s = std::max(shortest * period_s, 1e-15 * length_s);
   Piece all{offset_s, 0.0, begin};
   double next_s = 0.25 * period_s;
   bool arrived = false;
   while (!arrived && all.outcome.error == plant::Error::none) {
     const double rest_s = length_s - all.length_s;
-    const double tried_s = std::min(next_s, rest_s);
+    const bool is_last = next_s >= rest_s - rounding_s;
+    const double tried_s = is_last ? rest_s : next_s;
     const Extrapolated found = extrapolated(slope, all.end, offset_s + all.length_s, tried_s);
     if (!(found.apart <= 1.0) && found.piece.outcome.error == plant::Error::none &&
         tried_s > shortest * period_s) {
@@ -190,7 +193,7 @@ ChangingPlant::Piece ChangingPlant::adapted(const Slope& slope, const Carried& b
     }
     look(slope, all.end, found.piece, sight);
     all = joined(all, found.piece);
-    arrived = tried_s == rest_s;
+    arrived = is_last;
     next_s = std::min(0.25 * period_s, tried_s * lengthening(found.parts));
   }
   return all;
@@ -227,7 +230,7 @@ ChangingPlant::Piece ChangingPlant::in_parts(const Slope& slope, const Carried& 
   return all;
 }
 
-/// From 1, 2, 3 ... parts, until two results agree, or will not.
+/// From 1, 2, 3 ... parts, until two results agree, or are not expected to with most_parts.
 ChangingPlant::Extrapolated ChangingPlant::extrapolated(const Slope& slope, const Carried& begin,
                                                         double offset_s, double length_s) {
   Tableau row;

@@ -50,7 +50,7 @@ class ChangingSpring {
 /// the impulse of the friction, in 1/32 of the tolerance; forces in Fc, an impulse in Fc times the
 /// carrier period. Fc is the largest limit of the scene. Three parts are the least, because about a
 /// slip one and two of them may agree by chance.
-/// Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, II.9
+/// Source: Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, II.9
 /// (extrapolation, harmonic sequence, symmetric methods).
 ///
 /// A solver of fixed steps takes the values of the middle of each step, and nothing is compared.
@@ -113,7 +113,7 @@ class ChangingPlant final : public PlantPort {
   struct Extrapolated {
     Piece piece;
     int parts;     ///< the last number
-    double apart;  ///< how far from that of one number fewer, in what is allowed
+    double apart;  ///< from that of one number fewer, as a multiple of what is allowed
   };
   using Tableau = std::array<Piece, most_parts>;
 

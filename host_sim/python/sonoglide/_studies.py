@@ -187,8 +187,9 @@ def commission(device: str | PathLike[str], scene: Scene) -> Study:
     device  path of the unit's serial device; no Port may hold it meanwhile
     scene   the one that the unit's image was built from
 
-    OSError: the device is absent or silent, or a unit of another scene. ValueError: a scene whose plant
-    cannot be identified; the message has the key.
+    OSError: the device is absent or silent, the unit is that of another scene, refuses or finds a fault.
+    ComputationError: its readings are those of no sliding contact. ValueError: a scene whose plant cannot
+    be identified; the message has the key.
     """
     return Study(*_core.commission(fspath(device), scene), name="commissioned")
 

@@ -106,6 +106,9 @@ TEST(WordQuotient, ByBitsAndByHalvesIsTheSameFraction) {
       ASSERT_EQ(fraction_by_bits(a, b), exact) << a << " / " << b;
       ASSERT_EQ(fraction_by_halves(a, b), exact) << a << " / " << b;
     }
+    constexpr std::uint32_t highest = 1U << 31;
+    ASSERT_EQ(fraction_by_bits(x, highest), 2 * x);
+    ASSERT_EQ(fraction_by_halves(x, highest), 2 * x);
   }
 }
 

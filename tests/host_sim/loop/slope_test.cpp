@@ -274,6 +274,22 @@ TEST(SlopeOfTable1Test, HasTheKnownRatio) {
   EXPECT_NEAR(by_peer(scene).impulse_N_s / undriven_N_s, 0.555225739, 1e-9);
 }
 
+/// Whatever is left of a quarter of a carrier period by rounding.
+TEST(SlopeOfTable1Test, EndsAtAnyCarrierFrequency) {
+  for (const scene::FrictionLaw& law : laws_with_a_ratio()) {
+    for (const double frequency_Hz : {20e3, 50e3, 50.1e3, 50.3e3, 60e3}) {
+      Scene scene = sloping_table_1(law);
+      scene.drive->frequency_Hz = frequency_Hz;
+      scene.sliding.profile = {{0.0, 0.6}};
+      scene.run.duration_s = 2e-4;
+      const RunResult found = run(scene);
+      const PowerRatios ratios = power_ratios(scene, found.whole);
+      EXPECT_TRUE(std::isfinite(found.final_state.friction_force_N)) << frequency_Hz;
+      EXPECT_LT(std::abs(ratios.balance_residual), 1e-6) << frequency_Hz;
+    }
+  }
+}
+
 /// The contact slips along its limit throughout.
 TEST(SlopeOfTable1Test, EndsAtTheForceOfItsEnd) {
   Scene scene = sloping_table_1(scene::laws::Iwan{8});

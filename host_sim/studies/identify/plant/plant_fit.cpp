@@ -145,9 +145,9 @@ PossibleSprings hidden_springs(const PlantProblem& problem, const SpringScan& sc
         hidden, range));
   } else {
     told.cannot_tell.push_back(fmt::format(
-        "{}, so that the levels of friction help to tell the spring. The interval has all from {} that may give these "
-        "readings. A spring below {:.2g} or above {:.2g} times, such as on the other side of the carrier frequency, may "
-        "give them too.",
+        "{}, so its interval contains every spring from {} that fits these readings. Springs below {:.2g} or above "
+        "{:.2g} times the scene's were not tried; one of them may fit too, as on the other side of the carrier "
+        "frequency.",
         hidden, range, std::exp(-SpringScan::reach), std::exp(SpringScan::reach)));
   }
   return springs;

@@ -279,8 +279,8 @@ LeastSquaresFit PlantProblem::polished(LeastSquaresFit fit, Eigen::Index from) c
       next.parameters = moved(fit.parameters, part * step);
       next.residuals = residuals(next.parameters, all_steps);
       next.sum_of_squares = next.residuals.squaredNorm();
-    } while (next.sum_of_squares >= fit.sum_of_squares && (part *= shorter) >= shortest);
-    if (next.sum_of_squares >= enough * fit.sum_of_squares) {
+    } while (!(next.sum_of_squares < fit.sum_of_squares) && (part *= shorter) >= shortest);
+    if (!(next.sum_of_squares < enough * fit.sum_of_squares)) {
       break;
     }
     next.jacobian = jacobian(next.parameters, next.residuals, all_steps);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::size_t, 4> windows = {16, 64, 256, PlantProblem::all_steps};
 
-/// Of a residual, if residuals were independent.
+/// Of a residual, times what correlation takes from the number of independent residuals.
 double variance(const Eigen::VectorXd& residuals, double expected) {
   const double seen = residuals.squaredNorm() / static_cast<double>(residuals.size());
   return std::max(seen, expected * expected) * correlation_factor(residuals);

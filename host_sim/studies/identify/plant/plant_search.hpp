@@ -31,7 +31,7 @@ struct PossibleSprings {
 };
 
 /// Springs about that of the scene, each with the other unknowns and what the stretches swing by as they are best
-/// with it. Where noise hides the mode, many of them fit as well by swings that are none.
+/// with it. Where noise hides the mode, many of them fit as well, with swings that are fitted to the noise.
 class SpringScan {
  public:
   static constexpr double reach = 0.48;  ///< to either side, of the logarithm of the spring

@@ -32,7 +32,7 @@ std::string commissioned(const scene::Scene& nominal, const PlantFit& fit) {
   }
   std::string text = "# A scene with the plant that a unit has measured.\n";
   for (const std::string& each : fit.identification.cannot_tell) {
-    text += fmt::format("# Left as it was: {}\n", each);
+    text += fmt::format("# The readings cannot tell: {}\n", each);
   }
   return text + scene_file::to_toml(echo);
 }

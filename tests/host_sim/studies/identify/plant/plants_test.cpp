@@ -48,10 +48,12 @@ TEST(IdentifiedPlants, AreInsideTheirIntervals) {
 TEST(IdentifiedPlants, AreInsideTheirIntervalsInNoise) {
   const csv::Table table = recorded_plants(NOISY_PLANTS);
   std::size_t wrong = 0;
+  std::size_t covered = 0;
   for (const csv::Row& row : table.rows()) {
     wrong += row.text("covered") == "0" ? 1 : 0;
+    covered += row.text("covered") == "1" ? 1 : 0;
   }
-  EXPECT_GE(table.rows().size(), 50U);
+  EXPECT_GE(covered, 50U);
   EXPECT_LE(static_cast<double>(wrong), 0.05 * static_cast<double>(table.rows().size()));
 }
 
@@ -96,7 +98,7 @@ TEST(IdentifiedPlants, ASpringThatNoiseLeavesOpenStaysThatOfTheScene) {
   EXPECT_TRUE(found.fit.changed.empty());
   const std::string& open = found.fit.identification.cannot_tell.front();
   EXPECT_EQ(open.find(hidden), 0U) << open;
-  EXPECT_NE(found.scene.find("# Left as it was: " + open), std::string::npos);
+  EXPECT_NE(found.scene.find("# The readings cannot tell: " + open), std::string::npos);
   EXPECT_EQ(experiment::read_text(found.scene, "commissioned.toml").nominal.plant.stiffness_N_per_m,
             133e6);
 }
