@@ -173,10 +173,6 @@ class Feedforward {
   scene::Friction contact_;
 };
 
-std::string name(const scene::Scene& scene) {
-  return std::string(scene::name_of(scene.friction.law));
-}
-
 template <class Scalar>
 class InverseDesignTest : public testing::Test {};
 using Arithmetics =
