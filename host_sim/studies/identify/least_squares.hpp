@@ -23,8 +23,8 @@ struct LeastSquaresFit {
   Eigen::VectorXd parameters;
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
-  double sum_of_squares;
-  bool converged;  ///< false: it ran into values that are not finite, or out of evaluations
+  double sum_of_squares = 0.0;
+  bool converged = false;  ///< false: it ran into values that are not finite, or out of evaluations
 };
 
 /// Levenberg–Marquardt (Eigen's, after MINPACK's lmder: scaled by the columns of the Jacobian).

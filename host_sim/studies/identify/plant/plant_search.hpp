@@ -48,7 +48,7 @@ class SpringScan {
 
  private:
   struct Place {
-    double sum_of_squares;
+    double sum_of_squares = 0.0;
     Eigen::VectorXd parameters;
   };
   std::vector<LeastSquaresFit> coarse_fits(const PlantProblem& problem,
