@@ -141,7 +141,8 @@ PossibleSprings hidden_springs(const PlantProblem& problem, const SpringScan& sc
   if (springs.is_cut) {
     fit = problem.polished(problem.at(springs.nearest), 1);
     told.cannot_tell.push_back(fmt::format(
-        "{}, and springs from {} or beyond may give these readings. Readings with less noise would tell.",
+        "{}, and springs from {} or beyond may give these readings. commissioned.toml has the scene's, and the steps "
+        "on the plant that was found are those with it. Readings with less noise would tell.",
         hidden, range));
   } else {
     told.cannot_tell.push_back(fmt::format(
