@@ -120,8 +120,8 @@ class CommandedSupervisor : private SignsOfLife<Atomic>,
     return Base::answer(sample);
   }
 
-  /// In place of step(), see Supervisor::hold(). A stop stays in the fault, a restart is overtaken by it; other
-  /// parameters are taken.
+  /// In place of step(), see Supervisor::hold(). A stop stays in the fault, a restart ends as tripped;
+  /// other parameters are taken.
   const Drive& hold(const Sample& sample, std::uint8_t cause) {
     const Work work = look();
     Base::hold(sample, cause);
@@ -129,7 +129,7 @@ class CommandedSupervisor : private SignsOfLife<Atomic>,
     if (work.order == nullptr) {
       watch_service();
     } else if (work.order->kind == Kind::restart) {
-      orders_.finish(OrderEnd::overtaken);
+      orders_.finish(OrderEnd::tripped);
     } else {
       carry_out(*work.order);
     }

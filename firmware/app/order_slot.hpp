@@ -10,6 +10,7 @@ enum class OrderEnd : std::uint8_t {
   pending,    ///< not yet taken
   done,       ///< carried out
   overtaken,  ///< a stop or a fault came after it; it is not carried out
+  tripped,    ///< the board's hardware holds the drive off; it is not carried out
 };
 
 /// The service posts one order, and the next when that one has ended. The control side takes it, or

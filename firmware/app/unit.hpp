@@ -266,6 +266,7 @@ class Unit {
       case OrderEnd::pending:
         return store::Saving::busy;
       case OrderEnd::overtaken:
+      case OrderEnd::tripped:  // never of parameters
         order_parameters();
         return store::Saving::busy;
       case OrderEnd::done:

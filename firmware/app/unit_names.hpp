@@ -12,14 +12,14 @@ namespace sonoglide::app {
 
 namespace detail {
 
-/// "external_0" ... "external_31".
+/// "external_1" ... "external_31"; nothing has the cause 0.
 struct ExternalNames {
   char of[last_external_cause + 1][sizeof "external_31"]{};
 
   /// At compile time.
   constexpr ExternalNames() {
     constexpr char word[] = "external_";
-    for (unsigned cause = 0; cause <= last_external_cause; ++cause) {
+    for (unsigned cause = 1; cause <= last_external_cause; ++cause) {
       std::size_t size = 0;
       for (; word[size] != '\0'; ++size) {
         of[cause][size] = word[size];
@@ -38,7 +38,7 @@ inline constexpr ExternalNames external_names;
 /// @param fault  control::Fault or UnitFault.
 constexpr const char* fault_name(std::uint8_t fault) {
   constexpr auto external = static_cast<std::uint8_t>(UnitFault::external);
-  if (external <= fault && fault <= external + last_external_cause) {
+  if (external < fault && fault <= external + last_external_cause) {
     return detail::external_names.of[fault - external];
   }
   switch (static_cast<UnitFault>(fault)) {

@@ -285,9 +285,11 @@ class UnitRequests {
     }
     const std::uint8_t request = ordering_;
     ordering_ = 0;
-    if (end == OrderEnd::overtaken) {
+    if (end != OrderEnd::done) {
       if (faults_ != unit_.supervisor().faults().count()) {
         refuse(request, link::Reason::overtaken_by_fault);
+      } else if (end == OrderEnd::tripped) {
+        refuse(request, link::Reason::tripped);
       } else {
         refuse(request, link::Reason::out_of_turn, last, last);
       }

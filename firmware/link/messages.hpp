@@ -339,6 +339,7 @@ enum class Reason : std::uint8_t {
   overtaken_by_fault,        ///< a fault came after the first byte of the request
   no_such_record,            ///< that many are there: highest; none before a trace is whole
   self_test_failed,          ///< until a reset at which the unit passes it
+  tripped,                   ///< the board's hardware holds the drive off
 };
 
 /// Why a request was not carried out, with what would have been allowed.

@@ -27,7 +27,10 @@ std::string check_among(const std::vector<Board>& boards, const std::string& nam
     }
     allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", board.name);
   }
-  return fmt::format("\"{}\" is no board; allowed: {}", name, allowed);
+  const bool of_others =
+      emulated::find_board(name) != nullptr || emulated::find_unit_board(name) != nullptr;
+  return fmt::format("\"{}\" is no board{}; allowed: {}", name, of_others ? " of this command" : "",
+                     allowed);
 }
 
 const std::map<std::string_view, const char*> packages = {

@@ -99,7 +99,9 @@ void connect(const ConnectOptions& options) {
       options.board.empty() ? std::unique_ptr<emulated::EmulatedUnit>() : started(options);
   process::SerialPort port(own_unit ? own_unit->device() : options.device);
   unit::UnitLink link(port, own_unit ? patience_with_emulator : unit::UnitLink::usual_patience);
-  unit::Console console(link);
+  const std::string caveat =
+      own_unit ? "the samples are those of a stand-in for the contact, not of a plant" : "";
+  unit::Console console(link, caveat);
   const bool typed = isatty(STDIN_FILENO) == 1;
   if (typed && !options.quiet) {
     for (const std::string& line : console.identity()) {

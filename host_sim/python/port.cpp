@@ -193,6 +193,7 @@ class Port {
         scales_.value_of_parameter(unit::offset_parameter, tared.before);
     told["force_offset_N"] = scales_.value_of_parameter(unit::offset_parameter, tared.after);
     told["standard_error_N"] = tared.standard_error_N;
+    told["readings_equal"] = tared.readings_equal;
     return told;
   }
 
@@ -372,7 +373,7 @@ void add_port(py::module_& module) {
           "tare", &Port::tare,
           "tare(self)\n--\n\nSaves what the force sensor reads without a force as the parameter force_offset: "
           "lift the\ncontact, and stop the drive. force_offset_before_N, force_offset_N, and standard_error_N of "
-          "the\nlatter. 256 readings, 1.3 s.\n\nRuntimeError, and nothing is changed: the unit drives, slides "
+          "the\nlatter; readings_equal: all 256 were the same, as those of a sensor that is stuck. 1.3 s.\n\nRuntimeError, and nothing is changed: the unit drives, slides "
           "under load or has parameters that\nnobody has confirmed; the force is not steady to 0.1 % of "
           "friction_force; or the offset is out of\nthe parameter's range.");
 }

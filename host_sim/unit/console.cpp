@@ -31,6 +31,7 @@ std::string shown(const std::string& name, const std::vector<std::string>& words
 struct Console::Command {
   const char* name;
   const char* usage;  ///< every form of it
+  const char* effect;
   std::size_t fewest_words;
   std::size_t most_words;  ///< behind the name
   Lines (*carry_out)(Console&, const Words&);
@@ -38,41 +39,58 @@ struct Console::Command {
 
 const std::vector<Console::Command>& Console::commands() {
   static const std::vector<Command> all = {
-      {"identity", "identity", 0, 0, [](Console& on, const Words&) { return on.identity(); }},
-      {"status", "status", 0, 0, [](Console& on, const Words&) { return on.status(); }},
-      {"target", "target NUMBER", 0, SIZE_MAX,
+      {"identity", "identity", "board, firmware, design and full scales", 0, 0,
+       [](Console& on, const Words&) { return on.identity(); }},
+      {"status", "status", "state, target, drive, limit and fault", 0, 0,
+       [](Console& on, const Words&) { return on.status(); }},
+      {"target", "target NUMBER", "sets the target until reset", 0, SIZE_MAX,
        [](Console& on, const Words& words) { return on.set_target(words); }},
-      {"stop", "stop", 0, 0, [](Console& on, const Words&) { return on.stop(); }},
-      {"restart", "restart", 0, 0, [](Console& on, const Words&) { return on.restart(); }},
-      {"confirm", "confirm", 0, 0, [](Console& on, const Words&) { return on.confirm(); }},
-      {"log", "log", 0, 0, [](Console& on, const Words&) { return on.log(); }},
-      {"history", "history", 0, 0, [](Console& on, const Words&) { return on.history(); }},
-      {"params", "params, params NAME", 0, 1,
+      {"stop", "stop", "drive to zero at once", 0, 0,
+       [](Console& on, const Words&) { return on.stop(); }},
+      {"restart", "restart", "starts the drive, from a stop, a fault or running", 0, 0,
+       [](Console& on, const Words&) { return on.restart(); }},
+      {"confirm", "confirm", "accepts the parameters in force, and saves them", 0, 0,
+       [](Console& on, const Words&) { return on.confirm(); }},
+      {"log", "log", "the last faults, and an exception before the reset", 0, 0,
+       [](Console& on, const Words&) { return on.log(); }},
+      {"history", "history", "boots, time in operation and the last exception, over all resets", 0,
+       0, [](Console& on, const Words&) { return on.history(); }},
+      {"params", "params, params NAME", "values and ranges of the parameters", 0, 1,
        [](Console& on, const Words& words) {
          return words.empty() ? on.list_parameters() : on.list_parameter(words[0]);
        }},
-      {"set", "set NAME VALUE", 2, 2,
-       [](Console& on, const Words& words) { return on.set_parameter(words[0], words[1]); }},
-      {"tare", "tare", 0, 0, [](Console& on, const Words&) { return on.tare(); }},
-      {"stream", "stream CHANNEL ... [every N], stream off", 0, SIZE_MAX,
-       [](Console& on, const Words& words) { return on.stream(words); }},
-      {"plot", "plot CHANNEL", 1, 1,
+      {"set", "set NAME VALUE", "saves a parameter; stop first", 0, SIZE_MAX,
+       [](Console& on, const Words& words) { return on.set_parameter(words); }},
+      {"tare", "tare", "saves what the force sensor reads as its offset; stop and lift first", 0, 0,
+       [](Console& on, const Words&) { return on.tare(); }},
+      {"stream", "stream CHANNEL ... [every N], stream off", "prints the channels as a table", 0,
+       SIZE_MAX, [](Console& on, const Words& words) { return on.stream(words); }},
+      {"plot", "plot CHANNEL", "draws a strip chart, until stream off", 1, 1,
        [](Console& on, const Words& words) { return on.plot(words[0]); }},
-      {"trace", "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE", 0,
-       SIZE_MAX, [](Console& on, const Words& words) { return on.trace(words); }},
-      {"step", "step FROM TO [FILE]", 2, 3,
-       [](Console& on, const Words& words) { return on.step(words); }},
-      {"help", "help", 0, 0, [](Console&, const Words&) { return Lines{help_text()}; }},
+      {"trace", "trace, trace now, trace on fault|target [STEPS_BEFORE], trace save FILE",
+       "records each step of the controller around an event", 0, SIZE_MAX,
+       [](Console& on, const Words& words) { return on.trace(words); }},
+      {"step", "step FROM TO [FILE]", "goes from one target to another, and measures the force", 2,
+       3, [](Console& on, const Words& words) { return on.step(words); }},
+      {"help", "help", "this list", 0, 0, [](Console&, const Words&) { return help(); }},
   };
   return all;
 }
 
-std::string Console::help_text() {
-  std::vector<const char*> usages;
+Console::Lines Console::help() {
+  Lines lines;
   for (const Command& command : commands()) {
-    usages.push_back(command.usage);
+    lines.push_back(fmt::format("{}: {}", command.usage, command.effect));
   }
-  return fmt::format("{}", fmt::join(usages, ", "));
+  return lines;
+}
+
+std::string Console::names() {
+  std::vector<const char*> names;
+  for (const Command& command : commands()) {
+    names.push_back(command.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::vector<std::string> Console::carry_out(const std::string& line) {
@@ -94,7 +112,7 @@ std::vector<std::string> Console::carry_out(const std::string& line) {
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Command& each) { return each.name == name; });
   if (found == all.end()) {
-    return refuse(fmt::format("\"{}\": unknown; there are: {}", shown(name, words), help_text()));
+    return refuse(fmt::format("\"{}\": unknown; there are: {}", shown(name, words), names()));
   }
   if (words.size() < found->fewest_words || words.size() > found->most_words) {
     return refuse_usage(name, words);
@@ -107,8 +125,12 @@ std::vector<std::string> Console::identity() {
   if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
     return refuse(*refusal, 0);
   }
-  return {text_of(std::get<link::Identity>(result)),
-          fmt::format("target: {}; {}", allowed_target(), text_of(scales_))};
+  Lines lines{text_of(std::get<link::Identity>(result))};
+  for (std::string& line :
+       with_caveat(fmt::format("target: {}; {}", allowed_target(), text_of(scales_)))) {
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 std::string Console::tell_news() {
@@ -231,7 +253,12 @@ Console::Lines Console::list_parameter(const std::string& name) {
   return {text_of(std::get<link::ParameterValue>(result), scales_)};
 }
 
-Console::Lines Console::set_parameter(const std::string& name, const std::string& text) {
+Console::Lines Console::set_parameter(const Words& words) {
+  if (words.size() != 2) {
+    return refuse_usage("set", words, words.empty() ? "" : allowed_value(words.front()));
+  }
+  const std::string& name = words[0];
+  const std::string& text = words[1];
   const std::size_t parameter = parameter_named(name);
   link::WriteParameter request{};
   request.parameter = static_cast<std::uint8_t>(parameter);
@@ -249,11 +276,11 @@ Console::Lines Console::set_parameter(const std::string& name, const std::string
   return {fmt::format(
       "{} {}{}, saved", name,
       scales_.text_of_parameter(parameter, std::get<link::ParameterWritten>(result).value),
-      scales_.is_force(parameter) ? " N" : "")};
+      scales_.unit_of_parameter(parameter))};
 }
 
 Console::Lines Console::tare() try {
-  return {text_of(unit::tare(unit_, scales_), scales_)};
+  return text_of(unit::tare(unit_, scales_), scales_);
 } catch (const UnitRefusal& refusal) {
   return refuse(refusal.what());
 }
@@ -285,6 +312,13 @@ std::string Console::allowed_range(std::size_t parameter) {
       unit_.ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)});
   const auto* const told = std::get_if<link::ParameterValue>(&result);
   return told == nullptr ? "what the unit does not tell" : range_of(*told, scales_);
+}
+
+std::string Console::allowed_value(const std::string& name) {
+  const std::size_t parameter = parameter_named(name);
+  return parameter == app::parameter_count
+             ? "; params lists the names"
+             : fmt::format("; VALUE: a number alone, {}", allowed_range(parameter));
 }
 
 Console::Lines Console::refuse_value(std::size_t parameter, const std::string& reason) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host_sim/unit/live_plot.hpp"
@@ -16,9 +17,11 @@ namespace sonoglide::unit {
 /// Each line is a command; what the unit answers is put in words.
 class Console {
  public:
-  /// @param unit  outlives this
+  /// @param unit    outlives this
+  /// @param caveat  what a reader of its identity, traces and steps must know; empty: nothing
   /// @throws process::ProcessError  the unit does not answer, or does not tell its scales
-  explicit Console(UnitLink& unit) : unit_(unit), scales_(unit) {}
+  explicit Console(UnitLink& unit, std::string caveat = {})
+      : unit_(unit), scales_(unit), caveat_(std::move(caveat)) {}
 
   /// Carries out a command: `help` lists them. An empty line does nothing. A word with blanks is in double quotes.
   /// @return the lines of the answer
@@ -46,7 +49,9 @@ class Console {
   using Words = std::vector<std::string>;
   struct Command;
   static const std::vector<Command>& commands();
-  static std::string help_text();
+  static Lines help();
+  /// Of all commands.
+  static std::string names();
 
   Lines status();
   Lines set_target(const Words& words);
@@ -57,7 +62,7 @@ class Console {
   Lines history();
   Lines list_parameters();
   Lines list_parameter(const std::string& name);
-  Lines set_parameter(const std::string& name, const std::string& text);
+  Lines set_parameter(const Words& words);
   Lines tare();
 
   Lines stream(const Words& words);
@@ -66,6 +71,7 @@ class Console {
   Lines trace(const Words& words);
   Lines save_trace(const link::TraceState& state, const std::string& file);
   Lines step(const Words& words);
+  Lines with_caveat(const std::string& answer) const;
 
   link::Telemetry telemetry();
   /// Of a command with other words than it takes.
@@ -74,6 +80,8 @@ class Console {
   std::string allowed_target();
   /// "0 to 1".
   std::string allowed_range(std::size_t parameter);
+  /// "; VALUE: a number alone, -0.01 to 0.01 N": behind a usage.
+  std::string allowed_value(const std::string& name);
   /// Of a text that is no value of a parameter.
   Lines refuse_value(std::size_t parameter, const std::string& reason);
   Lines refuse(const std::string& reason);
@@ -82,6 +90,7 @@ class Console {
 
   UnitLink& unit_;
   UnitScales scales_;
+  std::string caveat_;
   StreamTable table_{scales_};
   std::optional<LivePlot> plot_;  ///< of the stream that runs, in place of its table
   std::size_t refused_ = 0;

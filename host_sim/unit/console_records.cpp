@@ -90,14 +90,21 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
   }
   try {
     TraceFile saved(file);
-    saved.write(read_trace(unit_, state), scales_);
+    saved.write(read_trace(unit_, state), scales_, std::nullopt, caveat_);
   } catch (const process::FileError& error) {
     return refuse(error.what());
   }
-  return {fmt::format("{} steps saved", state.records)};
+  return with_caveat(fmt::format("{} steps saved", state.records));
+}
+
+Console::Lines Console::with_caveat(const std::string& answer) const {
+  return caveat_.empty() ? Lines{answer} : Lines{answer, caveat_};
 }
 
 Console::Lines Console::step(const Words& words) {
+  if (words.size() == 3 && is_number(words[2])) {  // a file's name hardly is
+    return refuse_usage("step", words);
+  }
   std::array<std::uint32_t, 2> targets{};
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const ReadValue value = read_value(words[i], target_parameter, scales_);
@@ -114,9 +121,9 @@ Console::Lines Console::step(const Words& words) {
     const RecordedStep step = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
     const StepResponse response = step_response(step, scales_);
     if (file) {
-      file->write(step.trace, scales_, response);
+      file->write(step.trace, scales_, response, caveat_);
     }
-    return {text_of(response)};
+    return with_caveat(text_of(response));
   } catch (const UnitRefusal& refusal) {
     return refuse(refusal.what());
   } catch (const process::FileError& error) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware/app/unit_names.hpp"
@@ -40,12 +41,16 @@ class Taring {
                        value(Parameter::force_gain));
     const std::uint32_t after = scales_.count_of_parameter(offset_parameter, offset_N);
     if (after - offset.lowest > offset.highest - offset.lowest) {
-      throw UnitRefusal(fmt::format("force_offset would be {}; allowed is {}",
-                                    output::quantity(offset_N, "N"), range_of(offset, scales_)));
+      throw UnitRefusal(fmt::format(
+          "force_offset would be {}; allowed is {}{}", output::quantity(offset_N, "N"),
+          range_of(offset, scales_),
+          force.equal
+              ? "; every reading was the same, as of a converter at its rail or a sensor that is stuck"
+              : ""));
     }
     const link::WriteParameter request{static_cast<std::uint8_t>(offset_parameter), after};
     require<link::ParameterWritten>(unit_, scales_, request, offset_parameter, longest_save);
-    return {offset.value, after, force.standard_error / value(Parameter::force_gain)};
+    return {offset.value, after, force.standard_error / value(Parameter::force_gain), force.equal};
   }
 
  private:
@@ -129,7 +134,9 @@ Mean mean_of(const std::array<double, tare_readings>& readings) {
   for (const double each : means) {
     squares += (each - mean) * (each - mean);
   }
-  return {readings.front() + mean, std::sqrt(squares / (batches - 1) / batches)};
+  const bool equal = std::all_of(readings.begin(), readings.end(),
+                                 [&](double each) { return each == readings.front(); });
+  return {readings.front() + mean, std::sqrt(squares / (batches - 1) / batches), equal};
 }
 
 double offset_that_is(double offset_N, double force_N, double gain) {
@@ -140,11 +147,19 @@ Tared tare(UnitLink& unit, const UnitScales& scales) {
   return Taring(unit, scales).carry_out();
 }
 
-std::string text_of(const Tared& tared, const UnitScales& scales) {
-  return fmt::format("force_offset was {} N, is {} N, standard error {}; saved",
-                     scales.text_of_parameter(offset_parameter, tared.before),
-                     scales.text_of_parameter(offset_parameter, tared.after),
-                     output::quantity(tared.standard_error_N, "N"));
+std::vector<std::string> text_of(const Tared& tared, const UnitScales& scales) {
+  std::vector<std::string> lines{
+      fmt::format("force_offset was {} N, is {} N, standard error {}; saved",
+                  scales.text_of_parameter(offset_parameter, tared.before),
+                  scales.text_of_parameter(offset_parameter, tared.after),
+                  output::quantity(tared.standard_error_N, "N"))};
+  if (tared.readings_equal) {
+    lines.push_back(fmt::format(
+        "every one of {} readings was the same: a sensor without noise, or one that is stuck; check "
+        "that a force changes it: stream friction_force",
+        tare_readings));
+  }
+  return lines;
 }
 
 }  // namespace sonoglide::unit

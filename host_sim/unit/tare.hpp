@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "host_sim/unit/unit_link.hpp"
@@ -18,6 +19,7 @@ inline constexpr std::size_t tare_readings = 256;
 struct Mean {
   double value = 0.0;
   double standard_error = 0.0;
+  bool equal = false;  ///< every reading is the same
 };
 
 /// Mean of readings in their order, and its standard error s/√16 with s the standard deviation of the means of
@@ -35,6 +37,7 @@ struct Tared {
   std::uint32_t before = 0;  ///< counts of the parameter force_offset
   std::uint32_t after = 0;
   double standard_error_N = 0.0;  ///< of the new offset
+  bool readings_equal = false;    ///< all of them: the sensor shows no noise, or is stuck
 };
 
 /// Reads the force of a unit whose contact is unloaded, and saves the offset with which it is 0. Takes 1.3 s at
@@ -43,10 +46,11 @@ struct Tared {
 /// @throws process::ProcessError  the unit does not answer
 /// @throws UnitRefusal  nothing is changed: the unit drives, reads no force or has parameters that nobody has
 ///                      confirmed; the contact slides under load; the standard error of the mean force is above
-///                      0.1 % of friction_force; the offset is out of the parameter's range; it was not saved
+///                      0.1 % of friction_force; the offset is out of the parameter's range, as that of a
+///                      converter at its rail is; it was not saved
 Tared tare(UnitLink& unit, const UnitScales& scales);
 
-/// In a line.
-std::string text_of(const Tared& tared, const UnitScales& scales);
+/// In a line, and another one where the readings were equal.
+std::vector<std::string> text_of(const Tared& tared, const UnitScales& scales);
 
 }  // namespace sonoglide::unit

@@ -31,13 +31,13 @@ TraceFile::TraceFile(const std::string& name)
     : path_(new_file(name)), folder_(path_.parent_path(), {path_.filename().string()}) {}
 
 void TraceFile::write(const RecordedTrace& trace, const UnitScales& scales,
-                      const std::optional<StepResponse>& response) {
+                      const std::optional<StepResponse>& response, const std::string& caveat) {
   constexpr std::string_view ending = ".html";
   const std::string name = path_.filename().string();
   const bool is_page = name.size() >= ending.size() &&
                        name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-  folder_.write(
-      name, is_page ? output::to_html(page_of(trace, scales, response)) : csv_of(trace, scales));
+  folder_.write(name, is_page ? output::to_html(page_of(trace, scales, response, caveat))
+                              : csv_of(trace, scales));
   folder_.commit();
 }
 

@@ -19,9 +19,10 @@ class TraceFile {
   /// @throws process::FileError  it is there already, is a folder, or cannot be written
   explicit TraceFile(const std::string& name);
 
+  /// @param caveat  of a page, see Console
   /// @throws process::FileError  the file system refuses; there is no file then
   void write(const RecordedTrace& trace, const UnitScales& scales,
-             const std::optional<StepResponse>& response = std::nullopt);
+             const std::optional<StepResponse>& response, const std::string& caveat);
 
  private:
   std::filesystem::path path_;

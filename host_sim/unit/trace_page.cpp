@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,11 @@ using output::Line;
 std::string unit_in_brackets(link::ScaleUnit unit) {
   const std::string name = unit_name(unit).behind_number;
   return fmt::format("[{}]", name.empty() ? "-" : name.substr(1));
+}
+
+std::string sentence_of(std::string words) {
+  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+  return words + ".";
 }
 
 class Courses {
@@ -102,16 +108,17 @@ class Courses {
 }  // namespace
 
 output::Page page_of(const RecordedTrace& trace, const UnitScales& scales,
-                     const std::optional<StepResponse>& response) {
+                     const std::optional<StepResponse>& response, const std::string& caveat) {
   const Courses courses(trace, scales);
   output::Page page;
   page.title = response ? "Step of a unit" : "Trace of a unit";
   page.lead = fmt::format("A {}, one every {}.", text_of(trace.state),
                           output::quantity(scales.step_s(), "s"));
   if (response) {
-    std::string sentence = text_of(*response) + ".";
-    sentence.front() = 'T';
-    page.notes.push_back(sentence);
+    page.notes.push_back(sentence_of(text_of(*response)));
+  }
+  if (!caveat.empty()) {
+    page.warnings.push_back(sentence_of(caveat));
   }
   page.sections.push_back({"Course",
                            "One value for each step of the controller.",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "host_sim/output/page.hpp"
 #include "host_sim/unit/step_response.hpp"
@@ -12,7 +13,8 @@ namespace sonoglide::unit {
 
 /// The course of what was read and answered, over the time since the step that triggered the trace, and what the
 /// controller said of itself.
+/// @param caveat  see Console
 output::Page page_of(const RecordedTrace& trace, const UnitScales& scales,
-                     const std::optional<StepResponse>& response);
+                     const std::optional<StepResponse>& response, const std::string& caveat);
 
 }  // namespace sonoglide::unit

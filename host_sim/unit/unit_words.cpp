@@ -51,6 +51,11 @@ std::string decimal(std::uint32_t value, int places) {
   return {text.data(), encoding::write_decimal(value, places, text.data())};
 }
 
+bool is_number(const std::string& text) {
+  static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
+  return std::regex_match(text, number);
+}
+
 double number_of(const std::string& text) {
   double number = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), number);
@@ -95,6 +100,8 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter,
       return "not done: a fault came first";
     case link::Reason::self_test_failed:
       return "the image in the unit's flash is damaged: load it again";
+    case link::Reason::tripped:
+      return "the board's hardware holds the drive off, status has its fault: remove the cause";
     case link::Reason::no_such_record:
     case link::Reason::unknown_request:
     case link::Reason::wrong_length:
@@ -106,9 +113,8 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter,
 }
 
 ReadValue read_value(const std::string& text, std::size_t parameter, const UnitScales& scales) {
-  static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
   static const std::regex trailing_zeros("\\.?0*$");
-  if (!std::regex_match(text, number)) {
+  if (!is_number(text)) {
     return {0, fmt::format("\"{}\" is no number", text)};
   }
   if (scales.is_force(parameter)) {
@@ -137,10 +143,11 @@ std::string range_of(const link::ParameterValue& value, const UnitScales& scales
 }
 
 std::string text_of(const link::ParameterValue& value, const UnitScales& scales) {
-  return fmt::format("{} {}, compiled in {}; allowed is {}", parameter_labels[value.parameter].name,
-                     scales.text_of_parameter(value.parameter, value.value),
-                     scales.text_of_parameter(value.parameter, value.preset),
-                     range_of(value, scales));
+  const char* const unit = scales.unit_of_parameter(value.parameter);
+  return fmt::format(
+      "{} {}{}, compiled in {}{}; allowed is {}", parameter_labels[value.parameter].name,
+      scales.text_of_parameter(value.parameter, value.value), unit,
+      scales.text_of_parameter(value.parameter, value.preset), unit, range_of(value, scales));
 }
 
 std::string text_of(const link::Telemetry& told, const UnitScales& scales) {

@@ -16,7 +16,10 @@ inline constexpr auto target_parameter = static_cast<std::size_t>(app::Parameter
 /// A count of units of the last decimal place as a number, exactly.
 std::string decimal(std::uint32_t value, int places);
 
-/// A number as it is written in digits, with or without a sign and a point.
+/// Digits, with or without a minus sign and a point.
+bool is_number(const std::string& text);
+
+/// Of such a text.
 double number_of(const std::string& text);
 
 /// @return its number, see app::Parameter; app::parameter_count if there is none

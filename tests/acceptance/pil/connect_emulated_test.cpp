@@ -35,6 +35,10 @@ TEST_F(ConnectEmulatedTest, TalksToTheUnitOfAScene) {
                                "identity\nrestart\ntarget 0.7\nstop\nstatus\n");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find("mps2-an386, firmware "), 0U) << outcome.out;
+  EXPECT_NE(
+      outcome.out.find("\nthe samples are those of a stand-in for the contact, not of a plant\n"),
+      std::string::npos)
+      << outcome.out;
   EXPECT_NE(outcome.out.find(", target 0.3, drive "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find(", target 0.7, drive "), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("state off, target 0.7, drive 0 N,"), std::string::npos)
@@ -68,7 +72,7 @@ TEST_F(ConnectEmulatedTest, WithoutASceneItIsTheExample) {
 
 TEST_F(ConnectEmulatedTest, WhatItCannotRunIsNamed) {
   expect_refused("", "DEVICE or --emulated is required");
-  expect_refused("--emulated pico", "\"pico\" is no board; allowed: microbit, ");
+  expect_refused("--emulated pico", "\"pico\" is no board of this command; allowed: microbit, ");
   expect_refused("- --emulated mps2-an386", "- is the input that has the commands");
   expect_refused("/dev/null --set run.duration_s=1", "--set requires --emulated");
   expect_refused("'" SONOGLIDE_SCENES "/fingertip.toml' --emulated mps2-an386",

@@ -14,6 +14,7 @@ DRIVE_LIMIT = 1
 STATE_OFF, STATE_FAULT = 0, 4
 MISSING, SATURATED, STALLED, WATCHDOG_RESET, IMAGE_DAMAGED = 17, 18, 34, 33, 38
 BY_LINE, BY_CHIP = 65, 66  # external_1, external_2
+TRIPPED = 13  # reason of a refusal
 POWER_ON, BY_WATCHDOG = 0, 2
 IN_MAIN = 400  # instructions between two steps
 
@@ -88,7 +89,8 @@ def external_fault(unit):
     assert not unit.board.driven(), "the timer does not hold the legs low"
     unit.period()
     unit.fails(BY_LINE)
-    unit.link.ask(RESTART)
+    refused, payload = unit.link.ask(RESTART)
+    assert refused and payload[1] == TRIPPED, payload
     unit.periods(50)
     assert not unit.board.driven(), "a restart overcomes the fault's line"
     unit.board.hold_fault(False)

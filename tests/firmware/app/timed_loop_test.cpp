@@ -517,7 +517,7 @@ TEST(TrippedBoard, RefusesARestartAndKeepsTheFaultOverAStopWhileItLasts) {
   const std::uint32_t faults = unit.supervisor().faults().count();
   ASSERT_EQ(unit.restart(faults), Answer::taken);
   ASSERT_TRUE(loop.serve());
-  EXPECT_EQ(unit.order_end(), OrderEnd::overtaken);
+  EXPECT_EQ(unit.order_end(), OrderEnd::tripped);
   EXPECT_EQ(board.latest_drive().state, faulted);
   unit.stop();
   ASSERT_TRUE(loop.serve());

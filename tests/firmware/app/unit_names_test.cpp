@@ -83,7 +83,8 @@ TEST(UnitCodes, OfFaultsAreThoseOfTheReference) {
   for (const auto& [number, word] : faults) {
     EXPECT_EQ(fault_name(static_cast<std::uint8_t>(number)), word) << number;
   }
-  EXPECT_STREQ(fault_name(96), "none");  // above the last external one
+  EXPECT_STREQ(fault_name(64), "none");  // below the first external one
+  EXPECT_STREQ(fault_name(96), "none");  // above the last one
 }
 
 TEST(UnitCodes, OfTheParametersAreThoseOfTheReference) {

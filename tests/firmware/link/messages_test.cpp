@@ -253,10 +253,19 @@ TEST(StreamedFrame, IsReadAsItWasMadeForEverySetOfChannels) {
 
 TEST(MessageBytes, ReasonsHaveTheNumbersOfTheReference) {
   const Reason reasons[] = {
-      Reason::unknown_request,    Reason::wrong_length,   Reason::out_of_range,
-      Reason::unknown_parameter,  Reason::no_such_fault,  Reason::drive_not_stopped,
-      Reason::not_saved,          Reason::out_of_turn,    Reason::parameters_not_confirmed,
-      Reason::overtaken_by_fault, Reason::no_such_record, Reason::self_test_failed,
+      Reason::unknown_request,
+      Reason::wrong_length,
+      Reason::out_of_range,
+      Reason::unknown_parameter,
+      Reason::no_such_fault,
+      Reason::drive_not_stopped,
+      Reason::not_saved,
+      Reason::out_of_turn,
+      Reason::parameters_not_confirmed,
+      Reason::overtaken_by_fault,
+      Reason::no_such_record,
+      Reason::self_test_failed,
+      Reason::tripped,
   };
   int number = 0;
   for (const Reason reason : reasons) {

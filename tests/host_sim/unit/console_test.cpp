@@ -447,7 +447,10 @@ TEST_F(TraceConsole, MeasuresAStepAndSavesItsPage) {
   EXPECT_EQ(line_of("step 0.4 0.7"), "the drive is off: restart it first");
   ask("restart");
   const std::string page = file_ + " a b.html";
-  const std::string told = line_of("step 0.4 0.7 \"" + page + '"');
+  const Lines lines =
+      Console(link_, "the samples are of a dummy").carry_out("step 0.4 0.7 \"" + page + '"');
+  EXPECT_EQ(lines.back(), "the samples are of a dummy");
+  const std::string& told = lines.front();
   std::smatch found;
   ASSERT_TRUE(std::regex_search(
       told, found, std::regex("^the friction force goes from ([0-9.]+) mN to ([0-9.]+) mN")))
@@ -460,6 +463,7 @@ TEST_F(TraceConsole, MeasuresAStepAndSavesItsPage) {
   const std::string html{std::istreambuf_iterator<char>(stream), {}};
   std::filesystem::remove(page);
   EXPECT_NE(html.find("Step of a unit"), std::string::npos);
+  EXPECT_NE(html.find("The samples are of a dummy."), std::string::npos);
   EXPECT_EQ(line_of("status").find("state running, target 0.7,"), 0U);
   EXPECT_EQ(console_.refused(), 1U);
 }
@@ -504,7 +508,7 @@ TEST_F(ForceConsole, TakesAndTellsForcesInNewtons) {
   EXPECT_EQ(line_of("target"),
             "\"target\": allowed: target NUMBER; NUMBER: friction force, 0 to 0.03924 N");
   EXPECT_EQ(line_of("params target"),
-            "target 0.00981, compiled in 0.00981; allowed is 0 to 0.03924 N");
+            "target 0.00981 N, compiled in 0.00981 N; allowed is 0 to 0.03924 N");
   EXPECT_EQ(line_of("set target 0.015"), "target 0.015 N, saved");
   EXPECT_EQ(console_.refused(), 4U);
 }
@@ -531,15 +535,15 @@ TEST_F(ConsoleTest, ReadsAndWritesParametersByName) {
   const Lines all = ask("params");
   ASSERT_EQ(all.size(), app::parameter_count);
   EXPECT_EQ(all[1], "drive_limit 1, compiled in 1; allowed is 0 to 1");
-  EXPECT_EQ(all[3], "friction_force 0.02, compiled in 0.02; allowed is 0.00003908 to 0.04 N");
-  EXPECT_EQ(all[7], "host_timeout 0, compiled in 0; allowed is 0 to 60 s");
-  EXPECT_EQ(all[9], "force_offset 0, compiled in 0; allowed is -0.01 to 0.01 N");
+  EXPECT_EQ(all[3], "friction_force 0.02 N, compiled in 0.02 N; allowed is 0.00003908 to 0.04 N");
+  EXPECT_EQ(all[7], "host_timeout 0 s, compiled in 0 s; allowed is 0 to 60 s");
+  EXPECT_EQ(all[9], "force_offset 0 N, compiled in 0 N; allowed is -0.01 to 0.01 N");
   EXPECT_EQ(all[10], "force_gain 1, compiled in 1; allowed is 0.5 to 1.5");
   EXPECT_EQ(line_of("set force_offset -0.0012"), "force_offset -0.0012 N, saved");
   EXPECT_EQ(line_of("set drive_limit 0.8"), "drive_limit 0.8, saved");
   EXPECT_EQ(ask("params drive_limit"),
             (Lines{"drive_limit 0.8, compiled in 1; allowed is 0 to 1"}));
-  EXPECT_EQ(line_of("set host_timeout 0.25"), "host_timeout 0.25, saved");
+  EXPECT_EQ(line_of("set host_timeout 0.25"), "host_timeout 0.25 s, saved");
   EXPECT_EQ(console_.refused(), 0U);
 }
 
@@ -550,12 +554,10 @@ TEST_F(ConsoleTest, NamesWhatIsAllowed) {
   EXPECT_EQ(line_of("set stuck_periods 9"), "stuck_periods: allowed is 10 to 65535");
   EXPECT_EQ(line_of("set gain 1").find("unknown parameter; there are: target, drive_limit,"), 0U);
   EXPECT_EQ(line_of("params gain").find("unknown parameter; there are: target,"), 0U);
-  const std::string commands =
-      "identity, status, target NUMBER, stop, restart, confirm, log, history, params, params NAME, "
-      "set NAME VALUE, tare, stream CHANNEL ... [every N], stream off, plot CHANNEL, trace, trace now, "
-      "trace on fault|target [STEPS_BEFORE], trace save FILE, step FROM TO [FILE], help";
-  EXPECT_EQ(line_of("help"), commands);
-  EXPECT_EQ(line_of(" go  now "), "\"go now\": unknown; there are: " + commands);
+  EXPECT_EQ(
+      line_of(" go  now "),
+      "\"go now\": unknown; there are: identity, status, target, stop, restart, confirm, log, "
+      "history, params, set, tare, stream, plot, trace, step, help");
   EXPECT_EQ(console_.refused(), 7U);
   EXPECT_EQ(ask("  "), Lines{});
 }
@@ -564,10 +566,23 @@ TEST_F(ConsoleTest, ToldWhatACommandTakes) {
   EXPECT_EQ(line_of("target"),
             "\"target\": allowed: target NUMBER; NUMBER: friction ratio, 0 to 1");
   EXPECT_EQ(line_of("stop now"), "\"stop now\": allowed: stop");
-  EXPECT_EQ(line_of("set a"), "\"set a\": allowed: set NAME VALUE");
-  EXPECT_EQ(line_of("set a 1 2"), "\"set a 1 2\": allowed: set NAME VALUE");
+  EXPECT_EQ(line_of("set"), "\"set\": allowed: set NAME VALUE");
+  EXPECT_EQ(line_of("set a"), "\"set a\": allowed: set NAME VALUE; params lists the names");
+  EXPECT_EQ(
+      line_of("set force_offset 0.001 N"),
+      "\"set force_offset 0.001 N\": allowed: set NAME VALUE; VALUE: a number alone, -0.01 to "
+      "0.01 N");
   EXPECT_EQ(line_of("params a b"), "\"params a b\": allowed: params, params NAME");
-  EXPECT_EQ(console_.refused(), 5U);
+  EXPECT_EQ(line_of("step 0.4 0.5 0.8"), "\"step 0.4 0.5 0.8\": allowed: step FROM TO [FILE]");
+  EXPECT_EQ(console_.refused(), 7U);
+}
+
+TEST_F(ConsoleTest, HelpHasALineForEachCommand) {
+  const Lines help = ask("help");
+  EXPECT_EQ(help.size(), 16U);
+  EXPECT_EQ(help.front(), "identity: board, firmware, design and full scales");
+  EXPECT_EQ(help.back(), "help: this list");
+  EXPECT_EQ(console_.refused(), 0U);
 }
 
 TEST_F(ConsoleTest, KnowsWhatIsNoNumber) {
@@ -588,6 +603,19 @@ TEST_F(ConsoleTest, KnowsWhatIsNoNumber) {
   EXPECT_EQ(line_of("target 0.50000000").find("state off, target 0.5,"), 0U);
   EXPECT_EQ(line_of("set stuck_periods 20.0"), "stuck_periods 20, saved");
   EXPECT_EQ(console_.refused(), 12U);
+}
+
+/// Its hardware holds the drive off.
+struct TrippedBoard : app::TimedBoard {
+  static std::uint8_t tripped() { return 1; }
+};
+using TrippedConsole = ConsoleOf<RatioDesign, TrippedBoard>;
+
+TEST_F(TrippedConsole, ARestartIsRefusedWithItsReason) {
+  EXPECT_EQ(line_of("restart"),
+            "the board's hardware holds the drive off, status has its fault: remove the cause");
+  EXPECT_NE(line_of("status").find(", fault external_1, "), std::string::npos);
+  EXPECT_EQ(console_.refused(), 1U);
 }
 
 /// Its contact is lifted: the force sensor reads its offset and noise.
@@ -620,14 +648,18 @@ TEST_F(LiftedConsole, ATareSavesTheOffsetThatTheSensorHas) {
   double before_N = -0.002;
   for (const double offset : {0.03, 0.03, -0.2}) {
     served_.board().offset = offset;
-    const std::string line = line_of("tare");
+    const Lines lines = ask("tare");
     std::smatch found;
-    ASSERT_TRUE(std::regex_match(line, found, tared)) << line;
+    ASSERT_EQ(lines.size(), 2U) << lines.front();
+    ASSERT_TRUE(std::regex_match(lines.front(), found, tared)) << lines.front();
+    EXPECT_EQ(lines.back(),
+              "every one of 256 readings was the same: a sensor without noise, or one that is "
+              "stuck; check that a force changes it: stream friction_force");
     EXPECT_EQ(std::stod(found[1]), before_N);
     before_N = std::stod(found[2]);
     EXPECT_NEAR(before_N, 0.04 * offset, error_N);
     EXPECT_EQ(line_of("params force_offset"),
-              "force_offset " + found[2].str() + ", compiled in 0; allowed is -0.01 to 0.01 N");
+              "force_offset " + found[2].str() + " N, compiled in 0 N; allowed is -0.01 to 0.01 N");
   }
   EXPECT_EQ(console_.refused(), 0U);
 }
@@ -635,7 +667,9 @@ TEST_F(LiftedConsole, ATareSavesTheOffsetThatTheSensorHas) {
 // 6e-4 of full scale are 4e-5 in the mean; allowed is 0.1 % of a friction of half the full scale.
 TEST_F(LiftedConsole, ATareNeedsASteadyForce) {
   served_.board().noise = 1e-3;
-  const std::string saved = line_of("tare");
+  const Lines told = ask("tare");
+  EXPECT_EQ(told.size(), 1U);  // nothing is to be said of readings that show noise
+  const std::string& saved = told.front();
   std::smatch found;
   ASSERT_TRUE(std::regex_match(
       saved, found,
@@ -659,8 +693,14 @@ TEST_F(LiftedConsole, ATareNeedsASteadyForce) {
 
 TEST_F(LiftedConsole, ATareOutOfRangeChangesNothing) {
   served_.board().offset = 0.3;
-  EXPECT_EQ(line_of("tare"), "force_offset would be 12 mN; allowed is -0.01 to 0.01 N");
-  EXPECT_EQ(line_of("params force_offset").find("force_offset 0,"), 0U);
+  served_.board().noise = 1e-3;
+  EXPECT_EQ(line_of("tare").find("force_offset would be 12"), 0U);
+  served_.board().noise = 0.0;
+  served_.board().offset = -1.0;
+  EXPECT_EQ(line_of("tare"),
+            "force_offset would be -40 mN; allowed is -0.01 to 0.01 N; every reading was the same, "
+            "as of a converter at its rail or a sensor that is stuck");
+  EXPECT_EQ(line_of("params force_offset").find("force_offset 0 N,"), 0U);
 }
 
 TEST_F(LiftedConsole, ATareNeedsAStopAndNoLoad) {
@@ -675,7 +715,7 @@ TEST_F(LiftedConsole, ATareNeedsAStopAndNoLoad) {
   ask("restart");
   EXPECT_EQ(line_of("tare"), "stop the drive first");
   EXPECT_EQ(line_of("tare now"), "\"tare now\": allowed: tare");
-  EXPECT_EQ(line_of("params force_offset").find("force_offset 0.0012,"), 0U);
+  EXPECT_EQ(line_of("params force_offset").find("force_offset 0.0012 N,"), 0U);
   EXPECT_EQ(console_.refused(), 3U);
 }
 

@@ -116,7 +116,7 @@ TEST(StepResponse, SaysWhereTheLoopEnds) {
 
 TEST(TracePage, ShowsWhatWasReadAndAnswered) {
   const RecordedStep step = step_along(400, [](double) { return 1.0; });
-  const output::Page page = page_of(step.trace, scales, step_response(step, scales));
+  const output::Page page = page_of(step.trace, scales, step_response(step, scales), "");
   ASSERT_EQ(page.sections.size(), 1U);
   const auto& charts = page.sections[0].charts;
   ASSERT_EQ(charts.size(), 4U);
