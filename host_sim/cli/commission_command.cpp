@@ -1,9 +1,14 @@
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/studies/commission/commission.hpp"
 #include "host_sim/studies/identify/plant/study.hpp"
 
@@ -17,6 +22,15 @@ struct CommissionOptions {
   SceneOptions scene;
   StudyOptions study;
 };
+
+/// Told before the scene is read: that from a serial line would never come.
+std::string no_file(const std::string& device) {
+  std::error_code absent;
+  return std::filesystem::is_regular_file(device, absent)
+             ? fmt::format("\"{}\" is a file; allowed: a serial device, and then the scene",
+                           process::printable(device))
+             : std::string();
+}
 
 /// Throws scene_file::SceneError, process::ProcessError, process::FileError; nothing was written then.
 void commission_unit(const CommissionOptions& options) {
@@ -42,7 +56,8 @@ void add_commission_command(CLI::App& program) {
   command->add_option("device", options->device, "Serial device of the unit")
       ->required()
       ->type_name("DEVICE")
-      ->check(not_empty("a serial device"));
+      ->check(not_empty("a serial device"))
+      ->check(no_file);
   add_scene_options(*command, options->scene, "the one that the unit's image was built from");
   add_study_options(*command, options->study,
                     "commissioned.toml, identify.json, fit.csv and report.html [out/<scene "

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "firmware/app/field_parameters.hpp"
+#include "host_sim/process/ending.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/unit/step_recorder.hpp"
 #include "host_sim/unit/unit_scales.hpp"
@@ -14,13 +15,15 @@ namespace {
 /// What comes before a step that identification takes for steady.
 constexpr std::uint16_t kept_before = 32;
 
-/// However it ends, the unit is left without a drive.
+/// However it ends, the unit is left without a drive; where no signal ends it, with the target of before.
 class StoppedAtTheEnd {
  public:
-  explicit StoppedAtTheEnd(UnitLink& unit) : unit_(unit) {}
+  StoppedAtTheEnd(UnitLink& unit, std::uint32_t target)
+      : unit_(unit), target_(target), undo_([&unit] { unit.send_stop(); }) {}
   ~StoppedAtTheEnd() {
     try {
       unit_.ask<link::Stopped>(link::Stop{});
+      unit_.ask<link::TargetSet>(link::SetTarget{target_});
     } catch (const process::ProcessError&) {
       // It stops by itself: its host is silent from here on.
     }
@@ -30,6 +33,8 @@ class StoppedAtTheEnd {
 
  private:
   UnitLink& unit_;
+  std::uint32_t target_;
+  process::Undo undo_;
 };
 
 }  // namespace
@@ -55,14 +60,18 @@ bool has_design(UnitLink& unit, std::uint32_t controller) {
 std::vector<RecordedTrace> record_plant(UnitLink& unit, const std::vector<double>& targets,
                                         const std::function<void(double)>& progress) {
   const UnitScales scales(unit);
-  const StoppedAtTheEnd stopped(unit);
+  const auto before = require<link::Telemetry>(unit, scales, link::ReadTelemetry{});
+  const StoppedAtTheEnd stopped(unit, before.target);
   StepRecorder recorder(unit, scales);
   std::vector<RecordedTrace> traces = {recorder.undriven()};
   const auto tell = [&] {
     progress(static_cast<double>(traces.size()) / static_cast<double>(targets.size()));
   };
   tell();
-  recorder.restart();
+  {
+    const process::Undisturbed whole;  // no start after the stop of a signal
+    recorder.restart();
+  }
   const auto count = [&](double target) {
     return scales.count_of_parameter(target_parameter, target);
   };

@@ -17,8 +17,9 @@ namespace sonoglide::unit {
 bool has_design(UnitLink& unit, std::uint32_t controller);
 
 /// Stops the unit and records it without a drive, then starts it and records its step to each target but the
-/// first, once it has settled at the one before. At the end, and whatever happens, the unit is stopped. It
-/// keeps its limits and finds its faults as ever.
+/// first, once it has settled at the one before. At the end, whatever happens and where a
+/// signal ends the program, the unit is stopped. Its target is then that of before, but after a signal. It keeps its
+/// limits and finds its faults as ever.
 ///
 /// @param targets   more than one; friction ratios, or newtons
 /// @param progress  is told the part done

@@ -57,6 +57,14 @@ UnitLink::Result<link::Streaming> UnitLink::stream(const link::Stream& stream) {
   return ask<link::Streaming>(stream);
 }
 
+void UnitLink::send_stop() const noexcept {
+  try {
+    const link::WireFrame wire = link::encode(link::frame_of(link::Stop{}, 0));
+    port_.send(wire.bytes.data(), wire.size);
+  } catch (const process::ProcessError&) {  // the device is gone
+  }
+}
+
 link::Frame UnitLink::exchange(link::Frame request, std::chrono::milliseconds patience) {
   request.sequence = ++sequence_;
   link::Frame answer = answer_to(request, patience);

@@ -91,6 +91,16 @@ TEST(UsageTest, EmptyNamesAreRefused) {
   expect_refused("run a.toml --out ''", "--out: is empty; allowed: a folder");
 }
 
+TEST(UsageTest, ASceneInPlaceOfTheDeviceIsSeenBeforeAnythingIsRead) {
+  const ScratchFolder folder;
+  folder.write("a.toml", "");
+  EXPECT_EQ(
+      folder.run("commission a.toml /dev/nowhere")
+          .err.find(
+              "sonoglide: device: \"a.toml\" is a file; allowed: a serial device, and then the scene\n"),
+      0U);
+}
+
 TEST(UsageTest, ValuesOutOfAListNameTheList) {
   expect_refused("paper --figure twelve",
                  "--figure: \"twelve\" is no figure; allowed: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12");

@@ -1,6 +1,8 @@
 /// A unit in a plant that nobody has told its controller of, and the program that finds out.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <csignal>
 #include <regex>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 
 #include "stand.hpp"
 #include "tests/acceptance/program/program.hpp"
+#include "tests/acceptance/program/started_program.hpp"
 
 namespace sonoglide::app::scene_units_test {
 namespace {
@@ -19,10 +22,15 @@ TEST(CommissionedUnit, ItsPlantIsFound) {
                      "true_values.friction.contact_stiffness_N_per_m=0.04e6",
                      "true_values.plant.damping_N_s_per_m=10"});
   const acceptance::ScratchFolder folder;
+  folder.write("before", "target 0.7\n");
+  ASSERT_EQ(folder.run("connect " + stand.device() + " < before").exit_code, 0);
   const acceptance::Outcome run =
       folder.run("commission " + stand.device() +
                  " " SONOGLIDE_TARGET_STEP " --set sensor.adc_bits=12 --out found");
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  folder.write("after", "status\n");
+  const std::string after = folder.run("connect " + stand.device() + " --quiet < after").out;
+  EXPECT_EQ(after.rfind("state off, target 0.7,", 0), 0U) << after;
   const auto found = nlohmann::json::parse(folder.read("found/identify.json"));
   const auto& all = found["parameters"];
   EXPECT_NEAR(all["plant.stiffness_N_per_m"]["value"], 120e6, 120e6 * 1e-4) << found.dump(1);
@@ -36,6 +44,20 @@ TEST(CommissionedUnit, ItsPlantIsFound) {
   for (const auto& step : nlohmann::json::parse(commissioned.out)["control"]["steps"]) {
     EXPECT_LT(step["settling_time_s"], 1e-3);
   }
+}
+
+/// It has no host_timeout that would do so.
+TEST(CommissionedUnit, IsStoppedByAnInterrupt) {
+  const Stand stand({});
+  const acceptance::ScratchFolder folder;
+  acceptance::StartedProgram program(
+      folder, {"commission", stand.device(), SONOGLIDE_TARGET_STEP, "--quiet"}, folder);
+  ASSERT_TRUE(
+      acceptance::comes_true([&] { return stand.port().amplitude() > 0 || program.has_ended(); }));
+  program.send(SIGINT);
+  const int status = program.end();
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT);
+  EXPECT_TRUE(acceptance::comes_true([&] { return stand.port().amplitude() == 0; }));
 }
 
 TEST(CommissionedUnit, AStepOfItsLoopIsMeasured) {

@@ -37,6 +37,7 @@ class ServedPort : public PortOfParts<Parts> {
   /// Its loop ends with the next step.
   void end() { over_ = true; }
   std::int32_t largest_amplitude() const { return largest_amplitude_; }
+  std::int32_t amplitude() const { return amplitude_; }
 
  private:
   using ServedUnit = Unit<Parts, Pages, std::atomic, 1024>;
@@ -53,7 +54,8 @@ class ServedPort : public PortOfParts<Parts> {
     if (++steps_ % steps_in_service == 0) {
       loop_.service();
     }
-    largest_amplitude_ = std::max(largest_amplitude_, board_.latest_drive().amplitude);
+    amplitude_ = board_.latest_drive().amplitude;
+    largest_amplitude_ = std::max<std::int32_t>(largest_amplitude_, amplitude_);
     return board_.latest_drive();
   }
 
@@ -66,7 +68,8 @@ class ServedPort : public PortOfParts<Parts> {
   TimedLoop<ServedUnit::Supervisor, PeriodBoard<hal::Sample, hal::Drive>, NeverReset, Service>
       loop_{unit_.supervisor(), board_, watchdog_, service_};
   std::uint64_t steps_ = 0;
-  std::int32_t largest_amplitude_ = 0;
+  std::atomic<std::int32_t> largest_amplitude_{0};
+  std::atomic<std::int32_t> amplitude_{0};
   std::atomic<bool> over_{false};
 };
 

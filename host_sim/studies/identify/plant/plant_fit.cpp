@@ -134,22 +134,20 @@ PossibleSprings hidden_springs(const PlantProblem& problem, const SpringScan& sc
     fit = another;
   }
   PossibleSprings springs = scan.possible(fit);
-  const std::string hidden =
-      fmt::format("{}: noise hides the natural mode", problem.unknowns().front().key);
-  const std::string range =
-      fmt::format("{:.3g} to {:.3g} times the scene's", springs.least, springs.most);
+  const std::string& key = problem.unknowns().front().key;
   if (springs.is_cut) {
     fit = problem.polished(problem.at(springs.nearest), 1);
     told.cannot_tell.push_back(fmt::format(
-        "{}, and springs from {} or beyond may give these readings. commissioned.toml has the scene's, and the steps "
-        "on the plant that was found are those with it. Readings with less noise would tell.",
-        hidden, range));
+        "{}: noise hides the natural mode, and springs from {:.3g} to {:.3g} times the scene's or beyond may give "
+        "these readings. commissioned.toml has the scene's, and the steps on the plant that was found are those with "
+        "it. Readings with less noise would tell.",
+        key, springs.least, springs.most));
   } else {
     told.cannot_tell.push_back(fmt::format(
-        "{}, so its interval contains every spring from {} that fits these readings. Springs below {:.2g} or above "
-        "{:.2g} times the scene's were not tried; one of them may fit too, as on the other side of the carrier "
-        "frequency.",
-        hidden, range, std::exp(-SpringScan::reach), std::exp(SpringScan::reach)));
+        "{}: the natural mode does not stand out of the noise, so springs from {:.2g} to {:.2g} times the scene's were "
+        "tried. The interval contains all of them that fit these readings. One farther away may fit too, as on the "
+        "other side of the carrier frequency.",
+        key, std::exp(-SpringScan::reach), std::exp(SpringScan::reach)));
   }
   return springs;
 }
