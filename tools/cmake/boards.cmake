@@ -10,7 +10,7 @@
 # neither host nor hardware. A toolchain file without a board compiles the core alone.
 
 include(sonoglideChecksum)
-include(sonoglideBoardClass)
+include(sonoglideBoard)
 
 sonoglide_room(sonoglide_lockstep hal/lockstep USES sonoglide_hal)
 sonoglide_room(sonoglide_start hal/start)
@@ -68,13 +68,24 @@ function(sonoglide_interrupts number)
   endif()
 endfunction()
 
-# sonoglide_check_board(<function> <linker script> <arguments>...): what a person wrote of the board ${name} of that
-# function, which has parsed its arguments as BOARD_...; those named here are classes of board.hpp.
-function(sonoglide_check_board function memory)
-  set(call "${function}(${name})")
-  if(BOARD_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "${call}: unknown: ${BOARD_UNPARSED_ARGUMENTS}; the arguments are in tools/cmake/boards.cmake")
+# sonoglide_register(<function>): the board ${name} of that function.
+function(sonoglide_register function)
+  get_property(boards GLOBAL PROPERTY SONOGLIDE_BOARDS)
+  if(name IN_LIST boards)
+    message(FATAL_ERROR "${function}(${name}): there is a board ${name} already")
   endif()
+  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+endfunction()
+
+# sonoglide_check_board(<function> <linker script> CLASSES <keywords>... [OTHERS <keywords>...]): what a person wrote of
+# the board ${name} of that function, which has parsed its arguments as BOARD_...; CLASSES are of board.hpp, OTHERS are
+# allowed besides.
+function(sonoglide_check_board function memory)
+  cmake_parse_arguments(CHECK "" "" "CLASSES;OTHERS" ${ARGN})
+  set(call "${function}(${name})")
+  set(keywords FOLDER ${CHECK_CLASSES} ${CHECK_OTHERS} INTERRUPTS)
+  list(REMOVE_DUPLICATES keywords)
+  sonoglide_require_board_arguments("${call}" "${name}" ${keywords})
   if(NOT BOARD_FOLDER)
     message(FATAL_ERROR "${call}: FOLDER is missing")
   endif()
@@ -83,7 +94,7 @@ function(sonoglide_check_board function memory)
       message(FATAL_ERROR "${call}: there is no ${file}")
     endif()
   endforeach()
-  foreach(argument IN LISTS ARGN)
+  foreach(argument IN LISTS CHECK_CLASSES)
     sonoglide_require_class("${call}" ${argument} "${BOARD_${argument}}"
       "${PROJECT_SOURCE_DIR}/${BOARD_FOLDER}/board.hpp")
   endforeach()
@@ -92,12 +103,12 @@ endfunction()
 # sonoglide_board(<name> FOLDER <f> CLASS <c> [INTERRUPTS <number>]): a board that keeps its own carrier periods. Its
 # class is in <f>/board.hpp, its memory map in <f>/memory.ld.
 function(sonoglide_board name)
-  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  sonoglide_register(sonoglide_board)
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;CLASS;INTERRUPTS" "" ${ARGN})
-  sonoglide_check_board(sonoglide_board ${BOARD_FOLDER}/memory.ld CLASS)
+  sonoglide_check_board(sonoglide_board ${BOARD_FOLDER}/memory.ld CLASSES CLASS)
   sonoglide_interrupts("${BOARD_INTERRUPTS}")
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} USES sonoglide_hal sonoglide_start)
   sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/memory.ld
@@ -113,7 +124,7 @@ endfunction()
 # host over a serial line (SERIAL_BOARD). <f>/write_uf2 writes a .uf2 beside each, where there is such a program, and Python.
 # ENCODER: it reads one along the sliding where SONOGLIDE_ENCODER_COUNTS_PER_M says its resolution.
 function(sonoglide_carrier_board name)
-  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  sonoglide_register(sonoglide_carrier_board)
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
@@ -122,7 +133,7 @@ function(sonoglide_carrier_board name)
   if(BOARD_CHIP)
     set(memory ${BOARD_FOLDER}/${BOARD_CHIP}/memory.ld)
   endif()
-  sonoglide_check_board(sonoglide_carrier_board ${memory} HARDWARE SERIAL_BOARD)
+  sonoglide_check_board(sonoglide_carrier_board ${memory} CLASSES HARDWARE SERIAL_BOARD OTHERS CHIP ENCODER)
   sonoglide_interrupts("${BOARD_INTERRUPTS}")
   sonoglide_room(sonoglide_board ${BOARD_FOLDER} FOLDERS ${BOARD_CHIP} USES sonoglide_lockstep_board sonoglide_loaded)
   if(BOARD_CHIP)
@@ -176,12 +187,11 @@ endfunction()
 #   [TIMED_HARDWARE <class>] [INTERRUPTS <number>]): a board in lockstep with its host, over semihosting and over a serial
 # line, and on its own timer. The classes are in <f>/board.hpp.
 function(sonoglide_emulated_board name)
-  set_property(GLOBAL APPEND PROPERTY SONOGLIDE_BOARDS ${name})
+  sonoglide_register(sonoglide_emulated_board)
   if(NOT name STREQUAL SONOGLIDE_BOARD)
     return()
   endif()
   cmake_parse_arguments(BOARD "" "FOLDER;MEMORY;SERIAL_BOARD;TIMED_HARDWARE;INTERRUPTS" "" ${ARGN})
-  sonoglide_interrupts("${BOARD_INTERRUPTS}")
   if(NOT BOARD_MEMORY)
     set(BOARD_MEMORY memory.ld)
   endif()
@@ -189,7 +199,9 @@ function(sonoglide_emulated_board name)
   if(BOARD_TIMED_HARDWARE)
     list(APPEND classes TIMED_HARDWARE)
   endif()
-  sonoglide_check_board(sonoglide_emulated_board ${BOARD_FOLDER}/${BOARD_MEMORY} ${classes})
+  sonoglide_check_board(sonoglide_emulated_board ${BOARD_FOLDER}/${BOARD_MEMORY}
+    CLASSES ${classes} OTHERS MEMORY TIMED_HARDWARE)
+  sonoglide_interrupts("${BOARD_INTERRUPTS}")
   sonoglide_room(sonoglide_emulated_board ${BOARD_FOLDER}
     USES sonoglide_lockstep_board sonoglide_timed sonoglide_processor)
   sonoglide_images("" SOURCE firmware/image/main.cpp MEMORY ${BOARD_FOLDER}/${BOARD_MEMORY}
@@ -246,6 +258,22 @@ if(CMAKE_CROSSCOMPILING)
     "Folders with a controller_configuration.hpp; each gives images of its name")
   set(SONOGLIDE_ENCODER_COUNTS_PER_M "" CACHE STRING
     "Counts of the encoder along the sliding in a metre, for images of scenes with a texture; empty: there is none")
+
+  set(folders "")
+  set(names "")
+  foreach(folder IN LISTS SONOGLIDE_CONTROLLERS)
+    get_filename_component(folder "${folder}" ABSOLUTE)
+    get_filename_component(name "${folder}" NAME)
+    if(NOT EXISTS "${folder}/controller_configuration.hpp")
+      message(FATAL_ERROR "SONOGLIDE_CONTROLLERS: ${folder} has no controller_configuration.hpp: "
+        "sonoglide configure SCENE --out ${folder} writes it")
+    elseif(name IN_LIST names)
+      message(FATAL_ERROR "SONOGLIDE_CONTROLLERS: two folders are called ${name}, and so would be their images")
+    endif()
+    list(APPEND folders "${folder}")
+    list(APPEND names "${name}")
+  endforeach()
+  set(SONOGLIDE_CONTROLLERS ${folders})  # whole, without a slash at the end
 
   sonoglide_room(sonoglide_lockstep_board hal/lockstep/board
     USES sonoglide_lockstep sonoglide_start)

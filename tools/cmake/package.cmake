@@ -47,7 +47,7 @@ function(sonoglide_install_package)
   install(FILES "${made}/sonoglideConfig.cmake" "${made}/sonoglideConfigVersion.cmake"
       "${PROJECT_SOURCE_DIR}/tools/cmake/sonoglideStart.cmake"
       "${PROJECT_SOURCE_DIR}/tools/cmake/sonoglideChecksum.cmake"
-      "${PROJECT_SOURCE_DIR}/tools/cmake/sonoglideBoardClass.cmake"
+      "${PROJECT_SOURCE_DIR}/tools/cmake/sonoglideBoard.cmake"
     DESTINATION "${SONOGLIDE_PACKAGE_FOLDER}" COMPONENT core)
 
   set(pkg_config_folder "${CMAKE_INSTALL_DATADIR}/pkgconfig")

@@ -10,7 +10,7 @@ if(TARGET sonoglide::start)
 endif()
 
 include("${CMAKE_CURRENT_LIST_DIR}/sonoglideChecksum.cmake")
-include("${CMAKE_CURRENT_LIST_DIR}/sonoglideBoardClass.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/sonoglideBoard.cmake")
 
 add_library(sonoglide::start INTERFACE IMPORTED)
 target_sources(sonoglide::start INTERFACE
@@ -31,10 +31,8 @@ target_link_options(sonoglide::start INTERFACE "-L${sonoglide_DATA_FOLDER}")
 # take_exception(). Includes are relative to the folder of the caller. INTERRUPTS: see hal/README.md.
 function(sonoglide_timed_board name)
   cmake_parse_arguments(PARSE_ARGV 1 BOARD "" "HEADER;HARDWARE;MEMORY;INTERRUPTS" "SOURCES;CONTROLLERS")
-  if(BOARD_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "sonoglide_timed_board(${name}): unknown: ${BOARD_UNPARSED_ARGUMENTS}; there are "
-      "HEADER, HARDWARE, MEMORY, INTERRUPTS, SOURCES, CONTROLLERS")
-  endif()
+  sonoglide_require_board_arguments("sonoglide_timed_board(${name})" "${name}"
+    HEADER HARDWARE MEMORY INTERRUPTS SOURCES CONTROLLERS)
   foreach(argument HEADER HARDWARE MEMORY SOURCES CONTROLLERS)
     if(NOT BOARD_${argument})
       message(FATAL_ERROR "sonoglide_timed_board(${name}): ${argument} is missing")

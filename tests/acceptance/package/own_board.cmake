@@ -41,6 +41,11 @@ endfunction()
 
 refused("  CONTROLLERS controller" "" "sonoglide_timed_board(product): CONTROLLERS is missing")
 refused("MEMORY hal" "MEMROY hal" "sonoglide_timed_board(product): unknown: MEMROY;hal/template/memory.ld; there are HEADER")
+refused("MEMORY hal/template/memory.ld" "MEMORY" "sonoglide_timed_board(product): without a value: MEMORY")
+refused("  CONTROLLERS" "  INTERRUPTS 481 CONTROLLERS"
+  "sonoglide_timed_board(product): INTERRUPTS 481; allowed: a whole number from 1 to 480")
+refused("(product" "(seventeen-letters"
+  "sonoglide_timed_board(seventeen-letters): the name of a board has 1 to 16 letters")
 refused("::Hardware" "::Hardwear"
   "sonoglide_timed_board(product): HARDWARE sonoglide::hal::template_board::Hardwear: there is no Hardwear in")
 refused("memory.ld" "memroy.ld" "sonoglide_timed_board(product): MEMORY hal/template/memroy.ld: there is no")
