@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -182,6 +183,52 @@ Advice recommended_advice(const NaturalModeStudy& mode) {
                           : "")};
 }
 
+/// Which of the advice about drive, loop and carrier is enough by itself.
+Advice choice_advice(const NaturalModeStudy& mode) {
+  const QuietDrive& drive = mode.drives[mode.best_drive];
+  const RecommendedLoop& loop = mode.recommended_loop;
+  const CarrierPoint& own = mode.carriers[mode.own];
+  const CarrierPoint& carrier = mode.carriers[mode.recommended.value_or(mode.own)];
+  const std::string forward = fmt::format("{} ({})", word(drive), means(drive));
+  const std::string here = output::quantity(own.frequency_Hz, "Hz");
+  const std::string there = output::quantity(carrier.frequency_Hz, "Hz");
+  if (drive.plants.settled == mode.plants) {
+    return {"Choice",
+            fmt::format("All {} plants settle with {} at {}: a scene that has this may keep it.{}",
+                        mode.plants, forward, here,
+                        loop.means.sensorless && loop.refused.empty()
+                            ? " The recommended loop is for a stiffness that may be farther off."
+                            : "")};
+  }
+  const bool carrier_is_enough = carrier.plants.settled == mode.plants;
+  if (loop.refused.empty() && loop.plants.settled == mode.plants) {
+    return {
+        "Choice",
+        fmt::format(
+            "All {} plants settle with the recommended loop at {}, {} of them without it. {}",
+            mode.plants, here, drive.plants.settled,
+            carrier_is_enough
+                ? fmt::format("Or keep {} and change the carrier to {}: one of the two is enough.",
+                              forward, there)
+                : "The carrier may stay as it is.")};
+  }
+  if (carrier_is_enough) {
+    return {
+        "Choice",
+        fmt::format(
+            "All {} plants settle with {} at {}, so the carrier is enough; at {} the recommended loop holds {}.",
+            mode.plants, forward, there, here, loop.plants.settled)};
+  }
+  const bool loop_is_best = loop.plants.settled >= carrier.plants.settled;
+  return {
+      "Choice",
+      fmt::format(
+          "Neither the recommended loop nor another carrier settles all {} plants. Begin with the {}, by which "
+          "{} settle, and run design again: the loop was tried at {} alone, the carriers with {}.",
+          mode.plants, loop_is_best ? std::string("recommended loop") : "carrier " + there,
+          std::max(loop.plants.settled, carrier.plants.settled), here, forward)};
+}
+
 Advice bias_advice(const NaturalModeStudy& mode) {
   return {"Bias",
           fmt::format("Below {:g} carrier frequencies the friction itself moves the mass, which no "
@@ -271,7 +318,7 @@ output::Table drives_table(const NaturalModeStudy& mode) {
 }  // namespace
 
 std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
-  std::vector<Advice> all = {mode_advice(mode), recommended_advice(mode)};
+  std::vector<Advice> all = {mode_advice(mode), choice_advice(mode), recommended_advice(mode)};
   const RecommendedLoop& loop = mode.recommended_loop;
   if (loop.unnamed && loop.refused.empty()) {
     all.push_back(keys_advice(loop));

@@ -197,6 +197,52 @@ TEST(NaturalModeTest, WhatTheSceneCannotHaveIsSaid) {
   EXPECT_NE(study_of(scene).recommended_loop.refused.find("sliding.profile"), std::string::npos);
 }
 
+/// Of 8 plants so many settle promptly: with the best drive, with the recommended loop, at another carrier.
+std::string choice(std::size_t driven, std::size_t looped, std::size_t elsewhere) {
+  NaturalModeStudy study;
+  study.natural_Hz = 121e3;
+  study.plants = 8;
+  study.drives.resize(2);
+  study.drives[0].plants.settled = driven;
+  study.carriers.resize(2);
+  study.carriers[0].frequency_Hz = 60e3;
+  study.carriers[0].plants.settled = driven;
+  study.carriers[1].frequency_Hz = 63e3;
+  study.carriers[1].plants.settled = elsewhere;
+  study.recommended = elsewhere > driven ? 1 : 0;
+  study.recommended_loop.means.sensorless = true;
+  study.recommended_loop.plants.settled = looped;
+  const Advice told = natural_mode_advice(study).at(1);
+  EXPECT_EQ(told.topic, "Choice");
+  return told.sentence;
+}
+
+TEST(NaturalModeTest, SaysWhichAdviceIsEnough) {
+  EXPECT_EQ(
+      choice(8, 8, 8),
+      "All 8 plants settle with drive.interpolation = \"step\" (no notch) at 60 kHz: a scene that has this may "
+      "keep it. The recommended loop is for a stiffness that may be farther off.");
+  EXPECT_EQ(
+      choice(3, 8, 8),
+      "All 8 plants settle with the recommended loop at 60 kHz, 3 of them without it. Or keep "
+      "drive.interpolation = \"step\" (no notch) and change the carrier to 63 kHz: one of the two is enough.");
+  EXPECT_EQ(
+      choice(3, 8, 2),
+      "All 8 plants settle with the recommended loop at 60 kHz, 3 of them without it. The carrier may stay as it "
+      "is.");
+  EXPECT_EQ(
+      choice(3, 7, 8),
+      "All 8 plants settle with drive.interpolation = \"step\" (no notch) at 63 kHz, so the carrier is enough; at "
+      "60 kHz the recommended loop holds 7.");
+  EXPECT_EQ(
+      choice(3, 6, 7),
+      "Neither the recommended loop nor another carrier settles all 8 plants. Begin with the carrier 63 kHz, by "
+      "which 7 settle, and run design again: the loop was tried at 60 kHz alone, the carriers with "
+      "drive.interpolation = \"step\" (no notch).");
+  EXPECT_NE(choice(0, 6, 0).find("Begin with the recommended loop, by which 6 settle"),
+            std::string::npos);
+}
+
 TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   const DesignStudy study =
       design::study(make_task(configure::make_experiment(beside_a_multiple()), {0.4, 0.6},
@@ -217,7 +263,7 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   NaturalModeStudy mistaken = *study.natural_mode;
   mistaken.model_error = true;
   EXPECT_NE(
-      natural_mode_advice(mistaken).at(3).sentence.find("on top of the scene's [model_error]"),
+      natural_mode_advice(mistaken).at(4).sentence.find("on top of the scene's [model_error]"),
       std::string::npos);
   EXPECT_TRUE(
       says("Controller: The best that feeds the drive forward has drive.interpolation = "
