@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <type_traits>
 
 #include "firmware/store/record_log.hpp"
 #include "hal/board.hpp"
+#include "hal/kept_exception.hpp"
 #include "hal/reset_cause.hpp"
 
 namespace sonoglide::app {
@@ -17,7 +19,7 @@ namespace sonoglide::app {
 /// if a minute has passed since: what a unit has run from its last stop until a reset is not counted.
 template <class Flash>
 class UnitHistory {
-  static constexpr std::size_t exception_words = 7;
+  static constexpr std::size_t exception_words = std::tuple_size_v<hal::ExceptionWords>;
   using Log = store::RecordLog<Flash, 5 + exception_words>;
 
  public:
@@ -31,7 +33,7 @@ class UnitHistory {
     watchdog_resets,  ///< of the boots
     exceptions,       ///< of the boots, those after an exception of the processor
     exception_boot,   ///< the number of the boot after the last of them
-    last_exception,   ///< its words, as hal::KeptException has them
+    last_exception,   ///< see hal::words_of
   };
 
   /// Waits until the boot is written down, or the flash has failed three times.
@@ -70,9 +72,12 @@ class UnitHistory {
   bool saved() const { return saved_; }
 
   /// Of the last boot after one; of no meaning before the first.
-  hal::KeptException exception() const {
-    const auto* const words = &record_[last_exception];
-    return {words[0], words[1], words[2], words[3], words[4], words[5], words[6]};
+  hal::ExceptionWords exception() const {
+    hal::ExceptionWords words{};
+    for (std::size_t i = 0; i < exception_words; ++i) {
+      words[i] = record_[last_exception + i];
+    }
+    return words;
   }
 
   /// Somebody asked for a stop.
@@ -104,10 +109,7 @@ class UnitHistory {
   static constexpr std::uint32_t began_anew_bit = 1U << 31;  ///< beside the boots
 
   void note(const hal::KeptException& exception) {
-    const std::uint32_t words[exception_words] = {
-        exception.exception,      exception.program_counter, exception.link_register,
-        exception.program_status, exception.fault_status,    exception.hard_fault_status,
-        exception.fault_address};
+    const hal::ExceptionWords words = hal::words_of(exception);
     for (std::size_t i = 0; i < exception_words; ++i) {
       record_[last_exception + i] = words[i];
     }

@@ -319,17 +319,15 @@ class UnitRequests {
       answer_exception(history.exception(), history[history.exceptions] > 0);
     } else {
       const bool known = Product::exception != nullptr;
-      answer_exception(known ? *Product::exception : hal::KeptException{}, known);
+      answer_exception(known ? hal::words_of(*Product::exception) : hal::ExceptionWords{}, known);
     }
   }
 
-  void answer_exception(const hal::KeptException& kept, bool known) {
+  void answer_exception(const hal::ExceptionWords& words, bool known) {
     if (!known) {
       refuse(link::ReadException::kind, link::Reason::no_such_fault);
     } else {
-      answer(link::KeptException{kept.exception, kept.program_counter, kept.link_register,
-                                 kept.program_status, kept.fault_status, kept.hard_fault_status,
-                                 kept.fault_address});
+      answer(link::KeptException{words});
     }
   }
 

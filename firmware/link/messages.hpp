@@ -261,27 +261,17 @@ struct ReadException {
   static constexpr void fields(Message& /*message*/, Visitor&& /*visit*/) {}
 };
 
-/// The exception of the processor that ended the run before the reset, see hal::KeptException; of a unit with a
+/// The exception of the processor that ended the run before the reset; of a unit with a
 /// history the last one, see History::exception_boot.
 struct KeptException {
   static constexpr std::uint8_t kind = ReadException::kind | answer_bit;
-  std::uint32_t exception;
-  std::uint32_t program_counter;
-  std::uint32_t link_register;
-  std::uint32_t program_status;
-  std::uint32_t fault_status;
-  std::uint32_t hard_fault_status;
-  std::uint32_t fault_address;
+  std::array<std::uint32_t, 7> words;  ///< hal::words_of
 
   template <class Message, class Visitor>
   static constexpr void fields(Message& message, Visitor&& visit) {
-    visit(message.exception);
-    visit(message.program_counter);
-    visit(message.link_register);
-    visit(message.program_status);
-    visit(message.fault_status);
-    visit(message.hard_fault_status);
-    visit(message.fault_address);
+    for (auto& word : message.words) {
+      visit(word);
+    }
   }
 };
 

@@ -1,7 +1,6 @@
 #include "hal/kept_exception.hpp"
 
 #include <cstdint>
-#include <initializer_list>
 
 #include "hal/reset_cause.hpp"
 #include "hal/start/image_end.hpp"
@@ -20,10 +19,7 @@ struct Record {
 /// FNV-1a over the words. Out of line, for fewer bytes: it is needed three times.
 [[gnu::noinline]] std::uint32_t check_of(const KeptException& exception) {
   std::uint32_t hash = 0x811c9dc5;
-  for (const std::uint32_t word :
-       {exception.exception, exception.program_counter, exception.link_register,
-        exception.program_status, exception.fault_status, exception.hard_fault_status,
-        exception.fault_address}) {
+  for (const std::uint32_t word : words_of(exception)) {
     hash = (hash ^ word) * 0x01000193;
   }
   return hash;

@@ -17,6 +17,7 @@
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/link/messages.hpp"
+#include "hal/kept_exception.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/unit/step_recorder.hpp"
@@ -137,14 +138,10 @@ class Port {
     if (!told) {
       return std::nullopt;
     }
+    const hal::KeptException kept = hal::exception_of(told->words);
     py::dict exception;
-    exception["exception"] = told->exception;
-    exception["program_counter"] = told->program_counter;
-    exception["link_register"] = told->link_register;
-    exception["program_status"] = told->program_status;
-    exception["fault_status"] = told->fault_status;
-    exception["hard_fault_status"] = told->hard_fault_status;
-    exception["fault_address"] = told->fault_address;
+    hal::KeptException::visit_words(
+        kept, [&](const char* name, std::uint32_t word) { exception[name] = word; });
     return exception;
   }
 

@@ -13,6 +13,7 @@
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
 #include "firmware/encoding/decimal.hpp"
+#include "hal/kept_exception.hpp"
 #include "hal/reset_cause.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/process/printable.hpp"
@@ -204,11 +205,17 @@ std::string text_of(const link::History& told) {
 }
 
 std::string text_of(const link::KeptException& told, const std::string& before) {
-  return fmt::format(
-      "exception {} before {}: program counter {:#010x}, link register {:#010x}, program "
-      "status {:#010x}, fault status {:#010x}, hard fault status {:#010x}, fault address {:#010x}",
-      told.exception, before, told.program_counter, told.link_register, told.program_status,
-      told.fault_status, told.hard_fault_status, told.fault_address);
+  const hal::KeptException exception = hal::exception_of(told.words);
+  std::string text;
+  hal::KeptException::visit_words(exception, [&](std::string name, std::uint32_t word) {
+    if (text.empty()) {
+      text = fmt::format("{} {} before {}: ", name, word, before);
+      return;
+    }
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("{}{} {:#010x}", text.back() == ' ' ? "" : ", ", name, word);
+  });
+  return text;
 }
 
 }  // namespace sonoglide::unit

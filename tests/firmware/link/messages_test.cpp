@@ -116,15 +116,7 @@ LoggedFault logged_fault() {
 }
 
 KeptException kept_exception() {
-  KeptException message{};
-  message.exception = 3;
-  message.program_counter = 0x01020304;
-  message.link_register = 0x11121315;
-  message.program_status = 0x61000003;
-  message.fault_status = 0x00010000;
-  message.hard_fault_status = 0x40000000;
-  message.fault_address = 0x40000000;
-  return message;
+  return {{3, 0x01020304, 0x11121315, 0x61000003, 0x00010000, 0x40000000, 0x40000000}};
 }
 
 History history() {
