@@ -1,7 +1,7 @@
 # What the functions of tools/cmake/boards.cmake say of wrong arguments of a board.
 #
-# cmake -DSOURCE=<of the project> -P board_arguments.cmake
-# With -DCALL=<line> it is such a line, of the board `product`; without, all of them are tried.
+# cmake -DSOURCE=<of the project> -DFOLDER=<for files> -P board_arguments.cmake
+# With -DCALL=<lines> it is such lines, of the board `product`; without, all of them are tried.
 cmake_minimum_required(VERSION 3.25)
 
 if(CALL)
@@ -16,9 +16,9 @@ if(CALL)
   return()
 endif()
 
-# says(<line> <part of what is said>)
+# says(<lines> <part of what is said> [<-Dname=value>...])
 function(says call reason)
-  execute_process(COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${SOURCE}" "-DCALL=${call}" -P "${CMAKE_CURRENT_LIST_FILE}"
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${SOURCE}" "-DCALL=${call}" ${ARGN} -P "${CMAKE_CURRENT_LIST_FILE}"
     OUTPUT_VARIABLE said ERROR_VARIABLE said)
   string(REGEX REPLACE "[ \n]+" " " said "${said}")
   string(FIND "${said}" "${reason}" at)
@@ -38,7 +38,7 @@ says("${emulated} FOLDER hal/mps2 MEMORY an505_memory.ld SERIAL_BOARD mps2::An50
 says("sonoglide_board(another FOLDER hal/nowhere)" "taken")  # is not the board that is built
 
 says("${board} FOLDR hal/template CLASS template_board::Board)"
-  "sonoglide_board(product): unknown: FOLDR;hal/template; the arguments are in tools/cmake/boards.cmake")
+  "sonoglide_board(product): unknown: FOLDR;hal/template; there are FOLDER, CLASS, INTERRUPTS")
 says("${carrier} FOLDER hal/pico MEMORY memory.ld)" "sonoglide_carrier_board(product): unknown: MEMORY;memory.ld;")
 says("${emulated} FOLDER hal/mps2 ENCODER)" "sonoglide_emulated_board(product): unknown: ENCODER;")
 foreach(function board carrier emulated)
@@ -56,3 +56,20 @@ says("${carrier} FOLDER hal/nucleo_g474re HARDWARE nucleo_g474re::Hardware SERIA
   "(product): SERIAL_BOARD nucleo_g474re::Serial: there is no Serial in")
 says("${emulated} FOLDER hal/mps2 SERIAL_BOARD mps2::An385SerialBoard TIMED_HARDWARE mps2::An385Hardware)"
   "(product): TIMED_HARDWARE mps2::An385Hardware: there is no An385Hardware in")
+says("${emulated} FOLDER)" "(product): without a value: FOLDER")
+foreach(number -1 0 481 many)
+  says("${emulated} FOLDER hal/mps2 INTERRUPTS ${number})"
+    "(product): INTERRUPTS ${number}; allowed: a whole number from 1 to 480")
+endforeach()
+says("${board} FOLDER hal/template CLASS template_board::Board)\n${emulated} FOLDER hal/mps2)"
+  "sonoglide_emulated_board(product): there is a board product already")
+says("set(SONOGLIDE_BOARD a_very_long_board)\nsonoglide_board(a_very_long_board FOLDER hal/template)"
+  "sonoglide_board(a_very_long_board): the name of a board has 1 to 16 letters")
+
+foreach(folder a b)
+  file(WRITE "${FOLDER}/${folder}/same/controller_configuration.hpp" "")
+endforeach()
+says("#" "SONOGLIDE_CONTROLLERS: ${FOLDER}/nowhere has no controller_configuration.hpp: sonoglide configure SCENE"
+  -DCMAKE_CROSSCOMPILING=ON "-DSONOGLIDE_CONTROLLERS=${FOLDER}/nowhere")
+says("#" "SONOGLIDE_CONTROLLERS: two folders are called same" -DCMAKE_CROSSCOMPILING=ON
+  "-DSONOGLIDE_CONTROLLERS=${FOLDER}/a/same\\;${FOLDER}/b/same/")
