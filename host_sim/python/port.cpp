@@ -18,6 +18,7 @@
 #include "firmware/app/unit_names.hpp"
 #include "firmware/link/messages.hpp"
 #include "hal/kept_exception.hpp"
+#include "host_sim/process/printable.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/unit/step_recorder.hpp"
@@ -38,14 +39,22 @@ using app::parameter_labels;
 
 constexpr auto target_parameter = static_cast<std::size_t>(app::Parameter::target);
 
-/// A unit at a serial device. Several threads take turns.
+/// A unit at a serial device, until it is closed. Several threads take turns.
 class Port {
  public:
   explicit Port(const std::string& device, double patience_s)
-      : patience_(milliseconds(patience_s)),
-        port_(device),
-        link_(port_, patience_),
-        scales_(link_) {}
+      : device_(process::printable(device)),
+        patience_(milliseconds(patience_s)),
+        port_(std::in_place, device),
+        link_(std::in_place, *port_, patience_),
+        scales_(*link_) {}
+
+  void close() {
+    const py::gil_scoped_release released;
+    const std::lock_guard turn(turn_);
+    link_.reset();
+    port_.reset();
+  }
 
   py::dict identity() {
     const auto told = ask<link::Identity>(link::ReadIdentity{});
@@ -184,7 +193,7 @@ class Port {
   }
 
   py::dict tare() {
-    const unit::Tared tared = in_turn([&] { return unit::tare(link_, scales_); });
+    const unit::Tared tared = in_turn([&] { return unit::tare(open_link(), scales_); });
     py::dict told;
     told["force_offset_before_N"] =
         scales_.value_of_parameter(unit::offset_parameter, tared.before);
@@ -213,10 +222,18 @@ class Port {
   std::pair<unit::RecordedStep, unit::StepResponse> recorded_step(std::uint32_t from,
                                                                   std::uint32_t to) {
     return in_turn([&] {
-      auto step = unit::StepRecorder(link_, scales_).step_between(from, to);
+      auto step = unit::StepRecorder(open_link(), scales_).step_between(from, to);
       const auto response = unit::step_response(step, scales_);
       return std::pair{std::move(step), response};
     });
+  }
+
+  /// @throws process::ProcessError  it was closed
+  unit::UnitLink& open_link() {
+    if (!link_) {
+      throw process::ProcessError(device_ + ": this port is closed");
+    }
+    return *link_;
   }
 
   /// A work of several requests, which other threads wait for.
@@ -260,7 +277,7 @@ class Port {
                                         std::chrono::milliseconds work = {}) {
     const py::gil_scoped_release released;
     const std::lock_guard turn(turn_);
-    return link_.ask<Answer>(request, work);
+    return open_link().ask<Answer>(request, work);
   }
 
   /// @param parameter  of the value that was asked for
@@ -298,10 +315,11 @@ class Port {
     return std::get<Answer>(result);
   }
 
+  std::string device_;
   std::chrono::milliseconds patience_;
   std::mutex turn_;
-  process::SerialPort port_;
-  unit::UnitLink link_;
+  std::optional<process::SerialPort> port_;
+  std::optional<unit::UnitLink> link_;
   unit::UnitScales scales_;
 };
 
@@ -319,6 +337,10 @@ void add_port(py::module_& module) {
   module.attr("parameter_names") = py::tuple(parameter_names());
   py::class_<Port>(module, "Port")
       .def(py::init<std::string, double>(), py::arg("device"), py::arg("patience_s"))
+      .def(
+          "close", &Port::close,
+          "close(self)\n--\n\nGives the device free. The unit is left as it is: where it drives, it takes its host for "
+          "silent\nafter its parameter host_timeout.")
       .def(
           "identity", &Port::identity,
           "identity(self)\n--\n\nVersion of the firmware, number of the design, name of the board and serial\n"

@@ -16,13 +16,21 @@ class Port(_core.Port):
     device      path of the serial device; 115200 baud
     patience_s  how long an answer may take before the request is sent again, twice
 
-    OSError: the device is absent, silent or no unit. ValueError: a value that the unit does not have; the
+    One port or program at a time has a device: close() gives it free, and so does the end of `with Port(...) as unit:`.
+
+    OSError: the device is absent, silent or no unit, or the port is closed. ValueError: a value that the unit does not have; the
     message has its range. RuntimeError: the unit refuses the request as things are, and says why.
     """
 
     def __init__(self, device: str | os.PathLike[str], patience_s: float = 0.4) -> None:
         self.device = os.fspath(device)
         super().__init__(self.device, patience_s)
+
+    def __enter__(self) -> Port:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
 
     def parameters(self) -> dict[str, dict[str, float]]:
         """Every parameter by its name, see parameter()."""

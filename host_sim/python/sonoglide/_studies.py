@@ -184,7 +184,7 @@ def commission(device: str | PathLike[str], scene: Scene) -> Study:
     `sonoglide commission`; friction falls meanwhile, and at the end the unit is stopped. -> the content
     of identify.json; its scene is that of commissioned.toml
 
-    device  path of the unit's serial device; no Port may hold it meanwhile
+    device  path of the unit's serial device; no Port may hold it meanwhile: close() it
     scene   the one that the unit's image was built from
 
     OSError: the device is absent or silent, the unit is that of another scene, refuses or finds a fault.

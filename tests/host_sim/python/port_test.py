@@ -155,7 +155,12 @@ def test_what_cannot_be_commissioned_is_named(scene):
 def test_a_unit_of_another_scene_is_not_commissioned(image, scene):
     with running(image) as port:
         device = port.device
-        del port
+        with port as same, pytest.raises(OSError, match=f"{device}: is used by another program"):
+            assert same is port
+            sonoglide.Port(device)
+        port.close()
+        with pytest.raises(OSError, match=f"{device}: this port is closed"):
+            port.status()
         with pytest.raises(OSError, match=f"{device}: the unit has another design than the scene"):
             sonoglide.commission(device, scene("target_step", {"plant.stiffness_N_per_m": 120e6}))
 
