@@ -86,6 +86,9 @@ class TolerantSamples {
   /// One call for each sample.
   /// @return whether the controller may go on
   bool accept(bool usable) {
+    if (usable && unusable_ == 0) {
+      return true;  // as nearly always: nothing moves in the window
+    }
     unusable_ = (unusable_ << 1 | (usable ? 0U : 1U)) & (UINT32_MAX >> (32 - parameters_.window));
     return usable || count(unusable_) <= parameters_.tolerated;
   }
