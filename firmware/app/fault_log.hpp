@@ -21,14 +21,14 @@ template <std::size_t Length, template <class> class Word>
 class FaultLog {
  public:
   void add(const FaultEntry& entry) {
-    words_.begin();
-    words_.write(2 * next_, entry.fault);
-    words_.write(2 * next_ + 1, entry.period);
-    next_ = next_ + 1 < Length ? next_ + 1 : 0;
-    count_ += count_ < UINT32_MAX ? 1U : 0U;
-    words_.write(count_at, count_);
-    words_.write(next_at, static_cast<std::uint32_t>(next_));
-    words_.end();
+    words_.write_whole([&] {
+      words_.write(2 * next_, entry.fault);
+      words_.write(2 * next_ + 1, entry.period);
+      next_ = next_ + 1 < Length ? next_ + 1 : 0;
+      count_ += count_ < UINT32_MAX ? 1U : 0U;
+      words_.write(count_at, count_);
+      words_.write(next_at, static_cast<std::uint32_t>(next_));
+    });
   }
 
   /// Faults since reset, those no longer kept included.

@@ -56,13 +56,16 @@ class SequenceLock {
  public:
   // ---- The writer's ----
 
-  void begin() { sequence_.store(written_ + 1, std::memory_order_relaxed); }
+  /// Calls `give`. Inside, write() takes the words.
+  template <class Give>
+  void write_whole(const Give& give) {
+    const std::uint32_t before = sequence_.load(std::memory_order_relaxed);
+    sequence_.store(before + 1, std::memory_order_relaxed);
+    give();
+    sequence_.store(before + 2, std::memory_order_release);
+  }
   void write(std::size_t word, std::uint32_t value) {
     words_[word].store(value, std::memory_order_release);
-  }
-  void end() {
-    written_ += 2;
-    sequence_.store(written_, std::memory_order_release);
   }
 
   // ---- The reader's ----
@@ -83,7 +86,6 @@ class SequenceLock {
  private:
   std::array<Atomic<std::uint32_t>, Words> words_{};
   Atomic<std::uint32_t> sequence_{0};  ///< odd while the writer writes
-  std::uint32_t written_ = 0;          ///< the same, of the writer alone
 };
 
 }  // namespace sonoglide::app

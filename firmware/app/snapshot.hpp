@@ -37,14 +37,14 @@ class ShownPeriod {
   template <class SupervisorT>
   void show(const SupervisorT& supervisor) {
     const hal::Drive& drive = supervisor.drive();
-    words_.begin();
-    words_.write(0, supervisor.periods());
-    words_.write(1, static_cast<std::uint32_t>(supervisor.friction_force()));
-    words_.write(2, static_cast<std::uint32_t>(supervisor.sliding_velocity()));
-    words_.write(3, static_cast<std::uint32_t>(drive.amplitude));
-    words_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
-    words_.write(5, codes_of(drive));
-    words_.end();
+    words_.write_whole([&] {
+      words_.write(0, supervisor.periods());
+      words_.write(1, static_cast<std::uint32_t>(supervisor.friction_force()));
+      words_.write(2, static_cast<std::uint32_t>(supervisor.sliding_velocity()));
+      words_.write(3, static_cast<std::uint32_t>(drive.amplitude));
+      words_.write(4, static_cast<std::uint32_t>(drive.commanded_ratio));
+      words_.write(5, codes_of(drive));
+    });
   }
 
   Snapshot snapshot() const {
