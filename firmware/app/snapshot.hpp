@@ -19,8 +19,7 @@ struct Snapshot {
 
   /// The controller runs, or the drive ramps down.
   bool driving() const {
-    const auto state = static_cast<control::State>(drive.state);
-    return (state != control::State::off && state != control::State::fault) || drive.amplitude != 0;
+    return control::runs(static_cast<control::State>(drive.state)) || drive.amplitude != 0;
   }
 };
 

@@ -175,10 +175,7 @@ class Supervisor {
     }
   }
 
-  bool running() const {
-    return drive_.state != static_cast<std::uint8_t>(control::State::off) &&
-           drive_.state != static_cast<std::uint8_t>(control::State::fault);
-  }
+  bool running() const { return control::runs(static_cast<control::State>(drive_.state)); }
 
   void end(control::State state, std::uint8_t fault) {
     host_.clear();

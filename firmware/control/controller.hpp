@@ -60,7 +60,7 @@ class Controller {
     restart_parts(friction_, shaper_);
     regulator_.restart(target_);
     restart_parts(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
-    vibration_.restart(state_ == State::off || state_ == State::fault);
+    vibration_.restart(!runs(state_));
     backwards_ = false;
     requested_ = Scalar{};
     if (!driven || friction_.learning()) {
@@ -129,7 +129,7 @@ class Controller {
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
 
   DriveCommand<Scalar> answer(const Measurement& measurement, Fault unusable) {
-    if (state_ == State::off || state_ == State::fault) {
+    if (!runs(state_)) {
       return undriven(Limit::none);
     }
     if (!samples_.accept(unusable == Fault::none)) {

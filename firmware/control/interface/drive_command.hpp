@@ -15,6 +15,12 @@ enum class State : std::uint8_t {
   relearning,  ///< the drive pauses, or comes back from a pause, to learn the friction force anew
 };
 
+/// Whether a controller answers its samples.
+constexpr bool runs(State state) {
+  // Without a branch between them, two comparisons are one.
+  return (state != State::off) & (state != State::fault);
+}
+
 /// What keeps the friction ratio from its target; the controller runs on.
 enum class Limit : std::uint8_t {
   none = 0,

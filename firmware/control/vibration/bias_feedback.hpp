@@ -13,7 +13,7 @@ namespace sonoglide::control {
 /// No bias where the controller is off or in a fault.
 template <class Scalar>
 bool is_driving(const DriveCommand<Scalar>& command) {
-  return command.state != State::off && command.state != State::fault;
+  return runs(command.state);
 }
 
 /// Limits a bias to its range, and names the limit where a command has none.
