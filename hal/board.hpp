@@ -100,6 +100,7 @@ struct BiasedDrive : Drive {
 ///    public:
 ///     void feed();
 ///     bool caused_reset() const;
+///     static bool crystal_failed();  // before the reset, asked once; of a board that watches its crystal alone
 ///   };
 ///
 ///   class ByteLink {  // neither call waits; over a UART see hal::BufferedLink

@@ -261,6 +261,8 @@ class Watchdog {
     }
   }
   bool caused_reset() const { return caused_reset_; }
+  /// Before the reset. It is asked once.
+  static bool crystal_failed();
 
  private:
   static constexpr std::uint32_t count = 0x7f;

@@ -12,7 +12,9 @@ struct ClockRegisters {
   volatile std::uint32_t calibration;
   volatile std::uint32_t configuration;
   volatile std::uint32_t pll;
-  std::uint32_t reserved_0[14];
+  std::uint32_t reserved_0[3];
+  volatile std::uint32_t interrupts;
+  std::uint32_t reserved_4[10];
   volatile std::uint32_t ahb1_enable;
   volatile std::uint32_t ahb2_enable;
   std::uint32_t reserved_1[2];
@@ -22,6 +24,7 @@ struct ClockRegisters {
   std::uint32_t reserved_3[12];
   volatile std::uint32_t reset_status;
 };
+static_assert(offsetof(ClockRegisters, interrupts) == 0x1c);
 static_assert(offsetof(ClockRegisters, ahb1_enable) == 0x48);
 static_assert(offsetof(ClockRegisters, apb1_enable) == 0x58);
 static_assert(offsetof(ClockRegisters, apb2_enable) == 0x60);

@@ -1,9 +1,8 @@
-// Source: ST, RM0440, embedded flash memory: page erase, standard programming, error code correction.
+// Source: ST, RM0440, embedded flash memory: page erase, standard programming.
 #include <cstddef>
 #include <cstdint>
 
 #include "hal/nucleo_g474re/board.hpp"
-#include "hal/start/image_end.hpp"
 
 namespace sonoglide::hal::nucleo_g474re {
 namespace {
@@ -26,7 +25,6 @@ constexpr std::uint32_t start = 1U << 16;
 constexpr std::uint32_t locked = 1U << 31;
 constexpr std::uint32_t working = 1U << 16;
 constexpr std::uint32_t every_error = 0xc3fb;  // a set bit clears it
-constexpr std::uint32_t unreadable = 1U << 31;
 
 volatile std::uint32_t* place_of(std::size_t page, std::size_t word) {
   return page < 2 ? parameter_pages[page][word] : history_pages[page - 2][word];
@@ -75,13 +73,3 @@ bool Flash::busy() const {
 }
 
 }  // namespace sonoglide::hal::nucleo_g474re
-
-/// A word that a power cut spoilt has more errors than can be corrected. It reads as anything, and its
-/// checksum then tells; the reading goes on.
-extern "C" void take_non_maskable_interrupt() {
-  using namespace sonoglide::hal::nucleo_g474re;
-  if ((flash_control.correction & unreadable) == 0) {
-    take_exception();
-  }
-  flash_control.correction = unreadable;
-}

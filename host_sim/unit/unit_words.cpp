@@ -43,6 +43,8 @@ const char* cause_name(std::uint8_t cause) {
       return "a reset by the watchdog";
     case hal::ResetCause::exception:
       return "an exception";
+    case hal::ResetCause::crystal:
+      return "a failure of the crystal";
   }
   return "a cause that is not known";
 }

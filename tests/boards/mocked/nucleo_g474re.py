@@ -20,7 +20,8 @@ CARRIER, SAMPLING = 0x40012C00, 0x40013400
 ENCODER = 0x40000C00
 CONTROL_1, SLAVE, STATUS, RELOAD, COMPARE, BREAK = 0x00, 0x08, 0x10, 0x2C, 0x34, 0x44
 TRANSFER_EVENTS, TRANSFER_CLEAR, TRANSFERS, REQUESTS = 0x40020000, 0x40020004, 0x40020008, 0x40020800
-RCC_CONTROL, RCC_CONFIGURATION, RCC_PLL, RCC_CAUSES = 0x40021000, 0x40021008, 0x4002100C, 0x40021094
+RCC_CONTROL, RCC_CONFIGURATION, RCC_PLL = 0x40021000, 0x40021008, 0x4002100C
+RCC_INTERRUPTS, RCC_CAUSES = 0x4002101C, 0x40021094
 FLASH_KEY, FLASH_STATUS, FLASH_CONTROL, FLASH_ECC = 0x40022008, 0x40022010, 0x40022014, 0x40022018
 PORT_A, PORT_B, PORT_C = 0x48000000, 0x48000400, 0x48000800
 CONVERTERS = {"force": 0x50000000, "velocity": 0x50000100, "vibration": 0x50000400}
@@ -135,6 +136,19 @@ class Board(Machine):
         """Of its own, as a parity error of its RAM: it lasts until a reset."""
         self.breaks = BROKEN_BY_CHIP
         self._break()
+
+    def fail_crystal(self):
+        """Returns what the RAM then holds over the reset."""
+        self.find_fault()
+        self.registers[RCC_INTERRUPTS] = 1 << 8
+        assert self.take(NON_MASKABLE) is None, "the image goes on without its crystal"
+        return self.memory()
+
+    def memory(self):
+        return bytes(self.uc.mem_read(self.memory_space.start, len(self.memory_space)))
+
+    def keep_memory(self, content):
+        self.uc.mem_write(self.memory_space.start, content)
 
     def _break(self):
         self.events[CARRIER] |= self.breaks

@@ -15,7 +15,7 @@ STATE_OFF, STATE_FAULT = 0, 4
 MISSING, SATURATED, STALLED, WATCHDOG_RESET, IMAGE_DAMAGED = 17, 18, 34, 33, 38
 BY_LINE, BY_CHIP = 65, 66  # external_1, external_2
 TRIPPED = 13  # reason of a refusal
-POWER_ON, BY_WATCHDOG = 0, 2
+POWER_ON, BY_WATCHDOG, BY_CRYSTAL = 0, 2, 4
 IN_MAIN = 400  # instructions between two steps
 
 board_of = importlib.import_module(sys.argv[1])
@@ -223,6 +223,19 @@ def hung_service(unit):
     assert not again.board.driven()
 
 
+def failed_crystal(unit):
+    if not hasattr(unit.board, "fail_crystal"):  # it is not watched
+        return
+    unit.drive()
+    memory = unit.board.fail_crystal()
+    assert not unit.board.driven(), "a leg is driven without the crystal"
+    for cause in (BY_CRYSTAL, BY_WATCHDOG):  # it is told once
+        again = Unit(lambda board: (board.keep_memory(memory), board.tell_watchdog_reset()))
+        assert history(again)[2] == cause, history(again)
+        assert again.link.telemetry()["fault"] == WATCHDOG_RESET
+        memory = again.board.memory()
+
+
 def exceptions(unit):
     unit.drive()
     unit.board.check_other_exceptions()
@@ -241,3 +254,4 @@ if __name__ == "__main__":
     any_damaged_bit(20)
     fresh = Unit()
     exceptions(fresh)
+    failed_crystal(Unit())
