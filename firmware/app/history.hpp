@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <type_traits>
 
 #include "firmware/store/record_log.hpp"
@@ -19,7 +18,7 @@ namespace sonoglide::app {
 /// if a minute has passed since: what a unit has run from its last stop until a reset is not counted.
 template <class Flash>
 class UnitHistory {
-  static constexpr std::size_t exception_words = std::tuple_size_v<hal::ExceptionWords>;
+  static constexpr std::size_t exception_words = hal::ExceptionWords{}.size();
   using Log = store::RecordLog<Flash, 5 + exception_words>;
 
  public:
