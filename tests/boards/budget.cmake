@@ -1,5 +1,5 @@
 # What the tables of the budget are measured on: an image of each closed-loop example scene in
-# float32 and in q31, for every board, and images that differ by one part of the controller. Adds to
+# float32 and in q31, for every core, and images that differ by one part of the controller. Adds to
 # the controllers that the boards are configured with.
 
 # sonoglide_scene_images(<list> <scene> <its text, in float32>): adds <scene> to <list>_float32, and

@@ -68,16 +68,8 @@ TEST_P(BudgetTest, IsTheRecordedOne) {
   }
 }
 
-std::vector<std::string> board_names() {
-  std::vector<std::string> names;
-  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    names.emplace_back(board.name);
-  }
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(Boards, BudgetTest,
-                         testing::Combine(testing::ValuesIn(board_names()),
+                         testing::Combine(testing::ValuesIn(measured_boards()),
                                           testing::ValuesIn(arithmetics)),
                          [](const auto& parameter) {
                            return name_of(std::get<0>(parameter.param)) + "_" +
@@ -86,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Boards, BudgetTest,
 
 TEST(BudgetTableTest, HasARowForEachBoardArithmeticAndScene) {
   EXPECT_EQ(recorded_budget().size(),
-            board_names().size() * arithmetics.size() * example_scenes().size());
+            measured_boards().size() * arithmetics.size() * example_scenes().size());
 }
 
 TEST(BudgetTableTest, CountsEachByteOfFlashOnce) {

@@ -16,9 +16,9 @@ void append(std::vector<budget::Row>& rows, const std::vector<budget::Row>& more
 
 void write_tables() {
   std::vector<budget::Row> scenes;
-  for (const auto& board : sonoglide::emulated::emulated_boards()) {
+  for (const auto& board : budget::measured_boards()) {
     for (const auto& arithmetic : budget::arithmetics) {
-      append(scenes, budget::measure_scenes(board, arithmetic));
+      append(scenes, budget::measure_scenes(*sonoglide::emulated::find_board(board), arithmetic));
     }
   }
   std::vector<budget::Row> features;

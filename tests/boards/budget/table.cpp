@@ -86,6 +86,16 @@ bool has_unit(const std::string& scene) {
   return std::find(std::istream_iterator<std::string>(names), end, scene) != end;
 }
 
+std::vector<std::string> measured_boards() {
+  std::vector<std::string> names;
+  for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
+    if (board.name != "netduinoplus2") {
+      names.emplace_back(board.name);
+    }
+  }
+  return names;
+}
+
 std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
                                 const std::string& arithmetic) {
   const std::string compiler = compiler_version(board);

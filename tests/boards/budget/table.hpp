@@ -17,6 +17,10 @@ bool has_unit(const std::string& scene);
 
 inline const std::vector<std::string> arithmetics = {"float32", "q31"};
 
+/// Names of the boards whose images are measured, one of each core: netduinoplus2 has that of mps2-an386 and does
+/// the same instructions.
+std::vector<std::string> measured_boards();
+
 /// One row for each example scene.
 std::vector<Row> measure_scenes(const emulated::EmulatedBoard& board,
                                 const std::string& arithmetic);
