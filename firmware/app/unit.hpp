@@ -7,6 +7,7 @@
 
 #include "firmware/app/commanded_supervisor.hpp"
 #include "firmware/app/field_parameters.hpp"
+#include "firmware/app/loaded_parameters.hpp"
 #include "firmware/app/self_test.hpp"
 #include "firmware/link/scale_messages.hpp"
 #include "firmware/store/two_page_store.hpp"
@@ -56,20 +57,7 @@ class Unit {
   template <class... SelfTests>
   [[gnu::cold]] Unit(const FieldDesign<PartsT>& design, Flash& flash,
                      const Course& course = Course(), SelfTests... self_test)
-      : design_(design),
-        store_(flash, design.design()),
-        values_(design.presets()),
-        origin_(load()),
-        self_test_(self_test...),
-        target_(value(Parameter::target)),
-        supervisor_(design.controller_parameters(values_), design.designed(),
-                    design.timeout_periods(values_), design.service_periods(), course,
-                    design.calibration(values_)) {
-    supervisor_.set_target(design_.target(target_));
-    supervisor_.trace().expect_target(target_);
-    supervisor_.trace().take_target();
-    begin();
-  }
+      : Unit(Loaded(design, flash), design, course, self_test...) {}
 
   Supervisor& supervisor() { return supervisor_; }
   const Supervisor& supervisor() const { return supervisor_; }
@@ -187,37 +175,25 @@ class Unit {
   }
 
  private:
-  using Store = store::TwoPageStore<Flash, parameter_count>;
+  using Loaded = LoadedParameters<Design, Flash>;
+  using Store = typename Loaded::Store;
 
-  store::Origin load() {
-    const store::Origin origin = store_.load();
-    if (origin == store::Origin::stored && take_all()) {
-      return origin;
-    }
-    take_limits();
-    return origin == store::Origin::stored ? store::Origin::damaged : origin;
-  }
-
-  /// @return false, and nothing taken, unless each parameter is there and within its range.
-  bool take_all() {
-    ParameterValues stored{};
-    for (std::size_t i = 0; i < parameter_count; ++i) {
-      if (!store_.find(parameter_identities[i], stored[i])) {
-        return false;
-      }
-    }
-    const bool allowed = design_.allows(stored);
-    values_ = allowed ? stored : values_;
-    return allowed;
-  }
-
-  void take_limits() {
-    for (std::size_t i = 0; i < parameter_count; ++i) {
-      std::uint32_t stored = 0;
-      if (store_.find(parameter_identities[i], stored)) {
-        values_[i] = range(i).inherited(stored);
-      }
-    }
+  template <class... SelfTests>
+  [[gnu::cold]] Unit(const Loaded& loaded, const Design& design, const Course& course,
+                     SelfTests... self_test)
+      : supervisor_(design.controller_parameters(loaded.values), design.designed(),
+                    design.timeout_periods(loaded.values), design.service_periods(), course,
+                    design.calibration(loaded.values)),
+        design_(design),
+        store_(loaded.store),
+        values_(loaded.values),
+        origin_(loaded.origin),
+        self_test_(self_test...),
+        target_(value(Parameter::target)) {
+    supervisor_.set_target(design_.target(target_));
+    supervisor_.trace().expect_target(target_);
+    supervisor_.trace().take_target();
+    begin();
   }
 
   /// What the unit does at power-on.
@@ -276,6 +252,8 @@ class Unit {
     return store::Saving::saved;
   }
 
+  // First: small processors reach what is near the beginning by fewer instructions.
+  Supervisor supervisor_;
   const Design& design_;
   Store store_;
   ParameterValues values_;
@@ -288,7 +266,6 @@ class Unit {
   ParameterValues pending_{};
   std::size_t pending_parameter_ = 0;
   std::uint32_t save_periods_left_ = 0;
-  Supervisor supervisor_;
 };
 
 template <class PartsT, class Flash, class Course, class SelfTest>
