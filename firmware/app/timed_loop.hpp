@@ -55,9 +55,6 @@ class TimedLoop {
     }
     supervisor_.calibrate(sample);
     const std::uint32_t period = board_.period();
-    const bool none_lost = !begun_ || period == period_ + 1;
-    begun_ = true;
-    period_ = period;
     // After drive(), so that a command which came just too late is replaced before it acts.
     if constexpr (hal::reports_trips<Board>) {
       const std::uint8_t cause = board_.tripped();
@@ -65,7 +62,10 @@ class TimedLoop {
     } else {
       board_.drive(supervisor_.step(sample));
     }
+    const bool none_lost = !begun_ || period == period_ + 1;
     const bool in_time = none_lost && board_.period() == period;
+    begun_ = true;
+    period_ = period;
     if (in_time) {
       if (supervisor_.serviced()) {
         watchdog_.feed();
