@@ -55,6 +55,7 @@ class Unit {
   /// @param course     of the target, see course_of()
   /// @param self_test  how it ended; none of a unit without one, so that it costs no argument
   template <class... SelfTests>
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the constructor that it calls does
   [[gnu::cold]] Unit(const FieldDesign<PartsT>& design, Flash& flash,
                      const Course& course = Course(), SelfTests... self_test)
       : Unit(Loaded(design, flash), design, course, self_test...) {}
