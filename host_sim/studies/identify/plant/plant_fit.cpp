@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/least_squares.hpp"
@@ -106,13 +107,55 @@ void add_estimates(const PlantProblem& problem, const LeastSquaresFit& fit,
   }
 }
 
+double rms_of(const LeastSquaresFit& fit) {
+  return std::sqrt(fit.sum_of_squares / static_cast<double>(fit.residuals.size()));
+}
+
+/// Over the expected residuals, from which on they are a sign of another plant.
+constexpr double much = 2.0;
+
+/// A problem with its best fit, but for springs that noise hides.
+struct FittedProblem {
+  std::unique_ptr<PlantProblem> problem;
+  Eigen::VectorXd start;
+  LeastSquaresFit fit;
+};
+
+FittedProblem fitted(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
+                     FullForce force, const std::function<void(double)>& progress) {
+  FittedProblem fitted{std::make_unique<PlantProblem>(nominal, stretches, force), {}, {}};
+  fitted.start = with_undriven_friction(*fitted.problem, nominal, stretches.front());
+  fitted.fit = best_fit(*fitted.problem, fitted.start, progress);
+  return fitted;
+}
+
+/// With the full force of the drive as the scene has it. Where no such plant fits, with the force that fits, if one
+/// does: else the damper and the spring would make up for a force, or a mass, that is otherwise.
+FittedProblem fitted(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
+                     double expected, const std::function<void(double)>& progress,
+                     Identification& told) {
+  FittedProblem stated = fitted(nominal, stretches, FullForce::stated, progress);
+  if (rms_of(stated.fit) <= much * expected || nominal.nominal.transducer) {
+    return stated;
+  }
+  FittedProblem free = fitted(nominal, stretches, FullForce::fitted, [](double) {});
+  if (much * rms_of(free.fit) >= rms_of(stated.fit)) {
+    return stated;
+  }
+  told.cannot_tell.push_back(fmt::format(
+      "{}: whether it is the force or plant.mass_kg that is otherwise. The plant fits with this force and the mass of the "
+      "scene. A mass that is off would change force, spring and damper by its own factor, and the controller would be the "
+      "same.",
+      force_key));
+  return free;
+}
+
 void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) {
   Identification& told = found.identification;
-  const double rms = std::sqrt(fit.sum_of_squares / static_cast<double>(fit.residuals.size()));
+  const double rms = rms_of(fit);
   told.residual_rms = rms / std::abs(undriven);
   const double excess = std::max(rms * rms - found.expected_rms * found.expected_rms, 0.0);
   told.misfit = std::sqrt(excess) / std::abs(undriven);
-  constexpr double much = 2.0;
   append(
       told.warnings,
       {{rms > much * found.expected_rms,
@@ -157,10 +200,11 @@ PossibleSprings hidden_springs(const PlantProblem& problem, const SpringScan& sc
 PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
                    const std::function<void(double)>& progress) {
   const Expected expected = plant::expected(nominal.nominal.sensor);
-  const PlantProblem problem(nominal, stretches);
-  const Eigen::VectorXd start = with_undriven_friction(problem, nominal, stretches.front());
-  LeastSquaresFit fit = best_fit(problem, start, [&](double part) { progress(0.5 * part); });
   PlantFit found;
+  auto [its_problem, start, fit] = fitted(
+      nominal, stretches, expected.deviation(), [&](double part) { progress(0.5 * part); },
+      found.identification);
+  const PlantProblem& problem = *its_problem;
   found.identification.subject = "plant";
   found.identification.model = "the plant of the scene";
   found.expected_rms = expected.deviation();

@@ -43,7 +43,7 @@ scene::Scene without_true_values(scene::Scene scene) {
 
 }  // namespace
 
-std::vector<Unknown> unknowns_of(const scene::Scene& scene) {
+std::vector<Unknown> unknowns_of(const scene::Scene& scene, FullForce force) {
   constexpr double wide = 4.0;
   const nlohmann::ordered_json echo = scene_file::to_json(scene);
   std::vector<Unknown> all;
@@ -56,6 +56,9 @@ std::vector<Unknown> unknowns_of(const scene::Scene& scene) {
   add("friction", "coefficient");
   add("friction", "contact_stiffness_N_per_m");
   add("transducer", "force_factor_N_per_V");
+  if (force == FullForce::fitted) {
+    add("drive", "max_force_amplitude_N");
+  }
   // A scene may leave the damper out, where no real plant does.
   const double critical = 2.0 * std::sqrt(scene.plant.stiffness_N_per_m * scene.plant.mass_kg);
   constexpr double least = 1e-9;
@@ -69,10 +72,10 @@ std::vector<Unknown> unknowns_of(const scene::Scene& scene) {
 }
 
 PlantProblem::PlantProblem(const configure::Experiment& nominal,
-                           const std::vector<Stretch>& stretches)
+                           const std::vector<Stretch>& stretches, FullForce force)
     : nominal_(nominal),
       stretches_(stretches),
-      unknowns_(unknowns_of(nominal.nominal)),
+      unknowns_(unknowns_of(nominal.nominal, force)),
       document_(
           scene_file::Source{nominal.nominal.name, scene_file::to_toml(scene_file::to_json(
                                                        without_true_values(nominal.nominal)))},

@@ -31,9 +31,16 @@ struct Unknown {
 
 inline constexpr const char* damping_key = "plant.damping_N_s_per_m";
 
+inline constexpr const char* force_key = "drive.max_force_amplitude_N";
+
+enum class FullForce {
+  stated,  ///< by the scene
+  fitted,  ///< with the others, where there is no transducer whose force factor is one with it
+};
+
 /// Those of a scene with a spring: the spring first, the friction coefficient, the contact stiffness and the
-/// transducer's force factor where it has them, and the damper.
-std::vector<Unknown> unknowns_of(const scene::Scene& scene);
+/// transducer's force factor where it has them, the drive's full force, and the damper.
+std::vector<Unknown> unknowns_of(const scene::Scene& scene, FullForce force);
 
 /// Parameters: the logarithms of the unknowns, then of each stretch with a drive what its natural mode swings by
 /// at its beginning, in phase and in quadrature, over the design's full velocity.
@@ -44,7 +51,8 @@ class PlantProblem {
 
   /// @param nominal    of the scene that the recorded controller was designed for
   /// @param stretches  the first of them undriven; outlive this
-  PlantProblem(const configure::Experiment& nominal, const std::vector<Stretch>& stretches);
+  PlantProblem(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
+               FullForce force = FullForce::stated);
 
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   /// @return the place of the unknown of that key, -1 if there is none

@@ -69,6 +69,32 @@ TEST(IdentifiedPlants, OneIsAsRecorded) {
   EXPECT_EQ(found.commissioned, row.number("prompt_commissioned"));
 }
 
+/// A drive and a mass that are each 5 % off, which no spring and no damper of the scene's mass makes up for.
+TEST(IdentifiedPlants, AForceAndAMassThatAreOffAreFittedAsAForce) {
+  const configure::Experiment scene = experiment::read_file(
+      SCENES "target_step.toml", {"sensor.adc_bits=12", "true_values.plant.mass_kg=0.021",
+                                  "true_values.drive.max_force_amplitude_N=1824"});
+  const PlantStudy found =
+      study(scene, test::recorded(scene, targets(scene.nominal), 512, 32), [](double) {});
+  const Identification& told = found.fit.identification;
+  const auto value = [&](const std::string& key) {
+    return std::find_if(told.parameters.begin(), told.parameters.end(),
+                        [&](const Estimate& each) { return each.name == key; })
+        ->value;
+  };
+  EXPECT_NEAR(value("drive.max_force_amplitude_N"), 1824.0 / 1.05, 4.0);
+  EXPECT_NEAR(value("plant.stiffness_N_per_m"), 133e6 / 1.05, 133e6 * 1e-3);
+  EXPECT_TRUE(told.warnings.empty()) << told.warnings.front();
+  EXPECT_EQ(
+      told.cannot_tell.front().rfind(
+          "drive.max_force_amplitude_N: whether it is the force or plant.mass_kg that is otherwise.",
+          0),
+      0U);
+  for (const StepComparison& each : found.steps) {
+    EXPECT_LT(each.commissioned.settling_time_s.value_or(1.0), 1e-3);
+  }
+}
+
 PlantStudy found_in_noise(const std::vector<std::string>& sensor) {
   const configure::Experiment scene = experiment::read_file(SCENES "noisy_sensor.toml", sensor);
   return study(scene, test::recorded(scene, targets(scene.nominal), 1024, 32), [](double) {});
