@@ -56,7 +56,7 @@ class OrderSlot {
   };
 
   Work look() {
-    // One word in place of two where nothing is new, as nearly always.
+    // The count before the words, and heeded only after a look that found nothing: none is lost.
     const std::uint32_t calls = calls_.load(std::memory_order_acquire);
     if (calls == calls_heeded_) {
       return {false, nullptr};
@@ -84,7 +84,7 @@ class OrderSlot {
   }
 
  private:
-  /// After what it calls for.
+  /// After the stop or order that it announces.
   void call() { calls_.store(++calls_made_, std::memory_order_release); }
 
   std::uint32_t content_stops_ = 0;  ///< stops that were posted before the order
@@ -94,7 +94,7 @@ class OrderSlot {
   std::uint32_t calls_made_ = 0;
   std::uint32_t orders_ended_ = 0;  ///< of the control side alone, as the next
   std::uint32_t stops_heeded_ = 0;
-  std::uint32_t calls_heeded_ = 0;  ///< nothing of them is left
+  std::uint32_t calls_heeded_ = 0;  ///< all of them were seen
   Atomic<std::uint32_t> calls_{0};  ///< stops and orders together
   Atomic<std::uint32_t> posted_{0};
   Atomic<std::uint32_t> stops_{0};

@@ -17,7 +17,7 @@ enum class State : std::uint8_t {
 
 /// Whether a controller answers its samples.
 constexpr bool runs(State state) {
-  // Without a branch between them, two comparisons are one.
+  // & and not &&: the compiler merges both comparisons into one.
   return (state != State::off) & (state != State::fault);
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/image.hpp"
@@ -69,27 +70,30 @@ void record(const char* path, const std::vector<Row>& rows) {
   file << csv(rows);
 }
 
+std::vector<std::string> words_in(const char* text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+bool is_among(std::string_view word, const char* text) {
+  const std::vector<std::string> words = words_in(text);
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 }  // namespace
 
 std::vector<std::string> example_scenes() {
-  std::istringstream names(SONOGLIDE_BUDGET_SCENES);
-  std::vector<std::string> scenes;
-  for (std::string name; names >> name;) {
-    scenes.push_back(name);
-  }
-  return scenes;
+  return words_in(SONOGLIDE_BUDGET_SCENES);
 }
 
 bool has_unit(const std::string& scene) {
-  std::istringstream names(SONOGLIDE_BUDGET_UNITS);
-  const std::istream_iterator<std::string> end;
-  return std::find(std::istream_iterator<std::string>(names), end, scene) != end;
+  return is_among(scene, SONOGLIDE_BUDGET_UNITS);
 }
 
 std::vector<std::string> measured_boards() {
   std::vector<std::string> names;
   for (const emulated::EmulatedBoard& board : emulated::emulated_boards()) {
-    if (board.name != "netduinoplus2") {
+    if (is_among(board.name, SONOGLIDE_BUDGET_BOARDS)) {
       names.emplace_back(board.name);
     }
   }

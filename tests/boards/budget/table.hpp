@@ -17,8 +17,7 @@ bool has_unit(const std::string& scene);
 
 inline const std::vector<std::string> arithmetics = {"float32", "q31"};
 
-/// Names of the boards whose images are measured, one of each core: netduinoplus2 has that of mps2-an386 and does
-/// the same instructions.
+/// Names of the boards whose images are measured, one of each core.
 std::vector<std::string> measured_boards();
 
 /// One row for each example scene.
