@@ -317,21 +317,6 @@ RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nomina
   return found;
 }
 
-std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
-  constexpr std::size_t worth_it = 2;  // more plants than at the scene's own carrier
-  const auto rank = [&](std::size_t i) {
-    const std::size_t distance = i > study.own ? i - study.own : study.own - i;
-    const std::size_t settled = study.carriers[i].plants.settled;
-    return std::pair(settled + (i == study.own ? worth_it - 1 : 0),
-                     study.carriers.size() - distance);
-  };
-  std::size_t best = study.own;
-  for (std::size_t i = 0; i < study.carriers.size(); ++i) {
-    best = rank(i) > rank(best) ? i : best;
-  }
-  return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
-}
-
 /// Of what the trials do not know: the friction coefficient they do.
 bool has_model_error(const scene::Scene& scene) {
   const scene::ModelError& error = scene.model_error;
@@ -340,6 +325,20 @@ bool has_model_error(const scene::Scene& scene) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
+  const auto rank = [&](std::size_t i) {
+    const std::size_t distance = i > study.own ? i - study.own : study.own - i;
+    const std::size_t settled = study.carriers[i].plants.settled;
+    return std::pair(settled + (i == study.own ? worth_a_change - 1 : 0),
+                     study.carriers.size() - distance);
+  };
+  std::size_t best = study.own;
+  for (std::size_t i = 0; i < study.carriers.size(); ++i) {
+    best = rank(i) > rank(best) ? i : best;
+  }
+  return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
+}
 
 std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,
                                                    const std::vector<double>& ratios,

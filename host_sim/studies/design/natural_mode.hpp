@@ -77,17 +77,22 @@ struct NaturalModeStudy {
   std::vector<QuietDrive> drives;  ///< step, then linear
   /// Of these the one with which fewest never settle, then fewest late; then the quickest.
   std::size_t best_drive = 0;
-  std::vector<CarrierPoint> carriers;  ///< by rising frequency, with the best drive
-  std::size_t own = 0;                 ///< the scene's place among them
-  /// The nearest at which the most plants settle promptly, and the scene's own where no other settles
-  /// two more; none if none does.
-  std::optional<std::size_t> recommended;
+  std::vector<CarrierPoint> carriers;      ///< by rising frequency, with the best drive
+  std::size_t own = 0;                     ///< the scene's place among them
+  std::optional<std::size_t> recommended;  ///< recommended_carrier
   RecommendedLoop recommended_loop;
   std::optional<BiasedDrive>
       bias;  ///< of a mode below slow_mode carriers, under a force of a cosine
 };
 
 inline constexpr int prompt_periods = 60;  ///< a millisecond at 60 kHz
+
+/// A change is recommended if at least so many more plants settle with it.
+inline constexpr std::size_t worth_a_change = 2;
+
+/// The nearest at which the most plants settle promptly, and the scene's own where no other is worth a change;
+/// none if none settles.
+std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study);
 
 /// Of a loop off resonance whose plant has a natural mode; else none. Under a law whose vibration is across the
 /// sliding, the swing of the ratio is that of one along it.

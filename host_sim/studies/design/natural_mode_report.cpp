@@ -98,9 +98,13 @@ Advice mode_advice(const NaturalModeStudy& mode) {
                   left_behind(mode.drives.back()))};
 }
 
+std::string promptly() {
+  return fmt::format("within {} carrier periods", prompt_periods);
+}
+
 std::string tally_text(const Tally& tally) {
-  return fmt::format("{} settle within {} carrier periods, {} later, {} never", tally.settled,
-                     prompt_periods, tally.late, tally.never);
+  return fmt::format("{} settle {}, {} later, {} never", tally.settled, promptly(), tally.late,
+                     tally.never);
 }
 
 Advice controller_advice(const NaturalModeStudy& mode) {
@@ -183,52 +187,6 @@ Advice recommended_advice(const NaturalModeStudy& mode) {
                           : "")};
 }
 
-/// Which of the advice about drive, loop and carrier is enough by itself.
-Advice choice_advice(const NaturalModeStudy& mode) {
-  const QuietDrive& drive = mode.drives[mode.best_drive];
-  const RecommendedLoop& loop = mode.recommended_loop;
-  const CarrierPoint& own = mode.carriers[mode.own];
-  const CarrierPoint& carrier = mode.carriers[mode.recommended.value_or(mode.own)];
-  const std::string forward = fmt::format("{} ({})", word(drive), means(drive));
-  const std::string here = output::quantity(own.frequency_Hz, "Hz");
-  const std::string there = output::quantity(carrier.frequency_Hz, "Hz");
-  if (drive.plants.settled == mode.plants) {
-    return {"Choice",
-            fmt::format("All {} plants settle with {} at {}: a scene that has this may keep it.{}",
-                        mode.plants, forward, here,
-                        loop.means.sensorless && loop.refused.empty()
-                            ? " The recommended loop is for a stiffness that may be farther off."
-                            : "")};
-  }
-  const bool carrier_is_enough = carrier.plants.settled == mode.plants;
-  if (loop.refused.empty() && loop.plants.settled == mode.plants) {
-    return {
-        "Choice",
-        fmt::format(
-            "All {} plants settle with the recommended loop at {}, {} of them without it. {}",
-            mode.plants, here, drive.plants.settled,
-            carrier_is_enough
-                ? fmt::format("Or keep {} and change the carrier to {}: one of the two is enough.",
-                              forward, there)
-                : "The carrier may stay as it is.")};
-  }
-  if (carrier_is_enough) {
-    return {
-        "Choice",
-        fmt::format(
-            "All {} plants settle with {} at {}, so the carrier is enough; at {} the recommended loop holds {}.",
-            mode.plants, forward, there, here, loop.plants.settled)};
-  }
-  const bool loop_is_best = loop.plants.settled >= carrier.plants.settled;
-  return {
-      "Choice",
-      fmt::format(
-          "Neither the recommended loop nor another carrier settles all {} plants. Begin with the {}, by which "
-          "{} settle, and run design again: the loop was tried at {} alone, the carriers with {}.",
-          mode.plants, loop_is_best ? std::string("recommended loop") : "carrier " + there,
-          std::max(loop.plants.settled, carrier.plants.settled), here, forward)};
-}
-
 Advice bias_advice(const NaturalModeStudy& mode) {
   return {"Bias",
           fmt::format("Below {:g} carrier frequencies the friction itself moves the mass, which no "
@@ -240,18 +198,28 @@ Advice bias_advice(const NaturalModeStudy& mode) {
                       tally_text(mode.bias->plants))};
 }
 
+/// The other carrier at which the most plants settle; between equals the nearest.
+const CarrierPoint& best_other_carrier(const NaturalModeStudy& mode) {
+  const auto rank = [&](std::size_t i) {
+    const std::size_t distance = i > mode.own ? i - mode.own : mode.own - i;
+    return std::pair(mode.carriers[i].plants.settled, mode.carriers.size() - distance);
+  };
+  std::size_t best = mode.own == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < mode.carriers.size(); ++i) {
+    best = i != mode.own && rank(i) > rank(best) ? i : best;
+  }
+  return mode.carriers[best];
+}
+
 Advice carrier_advice(const NaturalModeStudy& mode) {
   const CarrierPoint& own = mode.carriers[mode.own];
   const auto settled = [&](const CarrierPoint& point) {
-    return fmt::format("{} of {} settle within {} carrier periods", point.plants.settled,
-                       mode.plants, prompt_periods);
+    return fmt::format("{} of {} settle {}", point.plants.settled, mode.plants, promptly());
   };
   if (!mode.recommended) {
     return {"Carrier",
-            fmt::format("Of {}, none settles within {} carrier periods at any carrier from "
-                        "{} to {}.",
-                        tried(mode), prompt_periods,
-                        output::quantity(mode.carriers.front().frequency_Hz, "Hz"),
+            fmt::format("Of {}, none settles {} at any carrier from {} to {}.", tried(mode),
+                        promptly(), output::quantity(mode.carriers.front().frequency_Hz, "Hz"),
                         output::quantity(mode.carriers.back().frequency_Hz, "Hz"))};
   }
   const CarrierPoint& best = mode.carriers[*mode.recommended];
@@ -262,13 +230,111 @@ Advice carrier_advice(const NaturalModeStudy& mode) {
       best.from_multiple, multiple(best), moved);
   if (*mode.recommended == mode.own) {
     return {"Carrier",
-            fmt::format("Keep {}: of {}, {}; {}.", output::quantity(own.frequency_Hz, "Hz"),
+            fmt::format("Keep {}{}: of {}, {}; {}.", output::quantity(own.frequency_Hz, "Hz"),
+                        best_other_carrier(mode).plants.settled > own.plants.settled
+                            ? ", as no other settles two plants more"
+                            : "",
                         tried(mode), settled(best), far)};
   }
   return {"Carrier", fmt::format("Use {} in place of {}: of {}, {} (here {}); {}.",
                                  output::quantity(best.frequency_Hz, "Hz"),
                                  output::quantity(own.frequency_Hz, "Hz"), tried(mode),
                                  settled(best), own.plants.settled, far)};
+}
+
+/// What there is to choose from, as sentences have it.
+struct Choices {
+  std::size_t plants;
+  std::string drive;  ///< the best that is fed forward
+  std::string here;   ///< the scene's carrier
+  std::string there;  ///< the best other carrier
+  Tally driven;       ///< with the drive here
+  Tally elsewhere;    ///< with the drive there
+  Tally looped;       ///< with the recommended loop here
+  bool has_loop;
+};
+
+Choices choices_of(const NaturalModeStudy& mode) {
+  const QuietDrive& drive = mode.drives[mode.best_drive];
+  const CarrierPoint& other = best_other_carrier(mode);
+  return {mode.plants,
+          fmt::format("{} ({})", word(drive), means(drive)),
+          output::quantity(mode.carriers[mode.own].frequency_Hz, "Hz"),
+          output::quantity(other.frequency_Hz, "Hz"),
+          drive.plants,
+          other.plants,
+          mode.recommended_loop.plants,
+          mode.recommended_loop.refused.empty()};
+}
+
+constexpr const char* no_loop = "This scene cannot have the recommended loop.";
+
+std::string all_with_drive(const Choices& choices, bool loop_is_for_more) {
+  return fmt::format(
+      "All {} plants settle {} with {} at {}: a scene that has this may keep it.{}", choices.plants,
+      promptly(), choices.drive, choices.here,
+      loop_is_for_more ? " The recommended loop is for a stiffness that may be farther off." : "");
+}
+
+std::string all_with_loop(const Choices& choices) {
+  return fmt::format(
+      "All {} plants settle {} with the recommended loop at {}, {} of them without it. {}",
+      choices.plants, promptly(), choices.here, choices.driven.settled,
+      choices.elsewhere.settled == choices.plants
+          ? fmt::format("Or keep {} and change the carrier to {}: one of the two is enough.",
+                        choices.drive, choices.there)
+          : "The carrier may stay as it is.");
+}
+
+std::string all_elsewhere(const Choices& choices) {
+  return fmt::format(
+      "All {} plants settle {} with {} at {}, so the carrier is enough. At {} {} do{}",
+      choices.plants, promptly(), choices.drive, choices.there, choices.here,
+      choices.driven.settled,
+      choices.has_loop ? fmt::format(", with the recommended loop {}.", choices.looped.settled)
+                       : fmt::format(". {}", no_loop));
+}
+
+std::string begin_with(const Choices& choices, bool loop_is_best) {
+  const std::string begin =
+      fmt::format("Begin with the {}, by which {} settle, and run design again",
+                  loop_is_best ? std::string("recommended loop") : "carrier " + choices.there,
+                  loop_is_best ? choices.looped.settled : choices.elsewhere.settled);
+  return choices.has_loop
+             ? fmt::format(
+                   "Neither the recommended loop nor another carrier settles all {} plants {}. {}: "
+                   "the loop was tried at {} alone, the carriers with {}.",
+                   choices.plants, promptly(), begin, choices.here, choices.drive)
+             : fmt::format("No other carrier settles all {} plants {}. {} there. {}",
+                           choices.plants, promptly(), begin, no_loop);
+}
+
+std::string nothing_gained(const Choices& choices, bool some_gain) {
+  return fmt::format(
+      "{} settles {} than {} at {}: of {}, {}.{}",
+      choices.has_loop ? "Neither the recommended loop nor another carrier" : "No other carrier",
+      some_gain ? "two plants more" : "more plants", choices.drive, choices.here, choices.plants,
+      tally_text(choices.driven), choices.has_loop ? std::string() : fmt::format(" {}", no_loop));
+}
+
+/// Which of the advice about drive, loop and carrier is enough by itself.
+Advice choice_advice(const NaturalModeStudy& mode) {
+  const Choices found = choices_of(mode);
+  const auto is_enough = [&](const Tally& tally) { return tally.settled == found.plants; };
+  if (is_enough(found.driven)) {
+    return {"Choice",
+            all_with_drive(found, found.has_loop && mode.recommended_loop.means.sensorless)};
+  }
+  if (is_enough(found.looped)) {
+    return {"Choice", all_with_loop(found)};
+  }
+  if (is_enough(found.elsewhere)) {
+    return {"Choice", all_elsewhere(found)};
+  }
+  const std::size_t most = std::max(found.looped.settled, found.elsewhere.settled);
+  return {"Choice", most >= found.driven.settled + worth_a_change
+                        ? begin_with(found, found.looped.settled == most)
+                        : nothing_gained(found, most > found.driven.settled)};
 }
 
 output::Chart carrier_chart(const NaturalModeStudy& mode) {
@@ -318,7 +384,7 @@ output::Table drives_table(const NaturalModeStudy& mode) {
 }  // namespace
 
 std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
-  std::vector<Advice> all = {mode_advice(mode), choice_advice(mode), recommended_advice(mode)};
+  std::vector<Advice> all = {mode_advice(mode), recommended_advice(mode)};
   const RecommendedLoop& loop = mode.recommended_loop;
   if (loop.unnamed && loop.refused.empty()) {
     all.push_back(keys_advice(loop));
@@ -328,6 +394,7 @@ std::vector<Advice> natural_mode_advice(const NaturalModeStudy& mode) {
     all.push_back(bias_advice(mode));
   }
   all.push_back(carrier_advice(mode));
+  all.push_back(choice_advice(mode));
   return all;
 }
 

@@ -197,50 +197,119 @@ TEST(NaturalModeTest, WhatTheSceneCannotHaveIsSaid) {
   EXPECT_NE(study_of(scene).recommended_loop.refused.find("sliding.profile"), std::string::npos);
 }
 
-/// Of 8 plants so many settle promptly: with the best drive, with the recommended loop, at another carrier.
-std::string choice(std::size_t driven, std::size_t looped, std::size_t elsewhere) {
+/// Of 8 plants at 60 kHz `driven` are those with the best drive, and `looped` with the recommended loop. With the drive
+/// `elsewhere` settle at 54 and at 63 kHz.
+NaturalModeStudy tried(const Tally& driven, std::size_t elsewhere, std::size_t looped) {
   NaturalModeStudy study;
   study.natural_Hz = 121e3;
   study.plants = 8;
   study.drives.resize(2);
-  study.drives[0].plants.settled = driven;
-  study.carriers.resize(2);
-  study.carriers[0].frequency_Hz = 60e3;
-  study.carriers[0].plants.settled = driven;
-  study.carriers[1].frequency_Hz = 63e3;
-  study.carriers[1].plants.settled = elsewhere;
-  study.recommended = elsewhere > driven ? 1 : 0;
+  study.drives[0].plants = driven;
+  for (const double frequency_Hz : {54e3, 57e3, 60e3, 63e3}) {
+    study.carriers.emplace_back().frequency_Hz = frequency_Hz;
+  }
+  study.own = 2;
+  study.carriers[2].plants = driven;
+  study.carriers[0].plants.settled = study.carriers[3].plants.settled = elsewhere;
+  study.recommended = recommended_carrier(study);
   study.recommended_loop.means.sensorless = true;
   study.recommended_loop.plants.settled = looped;
-  const Advice told = natural_mode_advice(study).at(1);
+  return study;
+}
+
+std::string choice(const NaturalModeStudy& study) {
+  const Advice told = natural_mode_advice(study).back();
   EXPECT_EQ(told.topic, "Choice");
   return told.sentence;
+}
+
+std::string carrier(const NaturalModeStudy& study) {
+  const std::vector<Advice> all = natural_mode_advice(study);
+  return all.at(all.size() - 2).sentence;
+}
+
+/// The rest never settles.
+std::string choice(std::size_t driven, std::size_t elsewhere, std::size_t looped) {
+  return choice(tried({driven, 0, 8 - driven}, elsewhere, looped));
+}
+
+std::string choice_without_loop(std::size_t driven, std::size_t elsewhere) {
+  NaturalModeStudy study = tried({driven, 0, 8 - driven}, elsewhere, 0);
+  study.recommended_loop.refused = "sliding.profile: it turns";
+  return choice(study);
 }
 
 TEST(NaturalModeTest, SaysWhichAdviceIsEnough) {
   EXPECT_EQ(
       choice(8, 8, 8),
-      "All 8 plants settle with drive.interpolation = \"step\" (no notch) at 60 kHz: a scene that has this may "
-      "keep it. The recommended loop is for a stiffness that may be farther off.");
+      "All 8 plants settle within 60 carrier periods with drive.interpolation = \"step\" (no notch) at 60 kHz: "
+      "a scene that has this may keep it. The recommended loop is for a stiffness that may be farther off.");
   EXPECT_EQ(
       choice(3, 8, 8),
-      "All 8 plants settle with the recommended loop at 60 kHz, 3 of them without it. Or keep "
-      "drive.interpolation = \"step\" (no notch) and change the carrier to 63 kHz: one of the two is enough.");
+      "All 8 plants settle within 60 carrier periods with the recommended loop at 60 kHz, 3 of them without it. "
+      "Or keep drive.interpolation = \"step\" (no notch) and change the carrier to 63 kHz: one of the two is "
+      "enough.");
   EXPECT_EQ(
-      choice(3, 8, 2),
-      "All 8 plants settle with the recommended loop at 60 kHz, 3 of them without it. The carrier may stay as it "
-      "is.");
+      choice(3, 2, 8),
+      "All 8 plants settle within 60 carrier periods with the recommended loop at 60 kHz, 3 of them without it. "
+      "The carrier may stay as it is.");
   EXPECT_EQ(
-      choice(3, 7, 8),
-      "All 8 plants settle with drive.interpolation = \"step\" (no notch) at 63 kHz, so the carrier is enough; at "
-      "60 kHz the recommended loop holds 7.");
+      choice(3, 8, 7),
+      "All 8 plants settle within 60 carrier periods with drive.interpolation = \"step\" (no notch) at 63 kHz, "
+      "so the carrier is enough. At 60 kHz 3 do, with the recommended loop 7.");
+}
+
+TEST(NaturalModeTest, ACarrierThatSettlesTheLastPlantIsEnough) {
+  const NaturalModeStudy study = tried({7, 0, 1}, 8, 6);
+  EXPECT_EQ(carrier(study).find("Keep 60 kHz, as no other settles two plants more: of 8"), 0U);
+  EXPECT_EQ(carrier(tried({8, 0, 0}, 8, 8)).find("Keep 60 kHz: of 8"), 0U);
   EXPECT_EQ(
-      choice(3, 6, 7),
-      "Neither the recommended loop nor another carrier settles all 8 plants. Begin with the carrier 63 kHz, by "
-      "which 7 settle, and run design again: the loop was tried at 60 kHz alone, the carriers with "
-      "drive.interpolation = \"step\" (no notch).");
-  EXPECT_NE(choice(0, 6, 0).find("Begin with the recommended loop, by which 6 settle"),
+      choice(study),
+      "All 8 plants settle within 60 carrier periods with drive.interpolation = \"step\" (no notch) at 63 kHz, "
+      "so the carrier is enough. At 60 kHz 7 do, with the recommended loop 6.");
+}
+
+TEST(NaturalModeTest, SaysWhatToBeginWithWhereNothingIsEnough) {
+  EXPECT_EQ(
+      choice(3, 7, 6),
+      "Neither the recommended loop nor another carrier settles all 8 plants within 60 carrier periods. Begin "
+      "with the carrier 63 kHz, by which 7 settle, and run design again: the loop was tried at 60 kHz alone, the "
+      "carriers with drive.interpolation = \"step\" (no notch).");
+  EXPECT_NE(choice(0, 0, 6).find("Begin with the recommended loop, by which 6 settle"),
             std::string::npos);
+}
+
+TEST(NaturalModeTest, SaysSoWhereNothingSettlesMoreThanTheDrive) {
+  EXPECT_EQ(
+      choice(3, 2, 3),
+      "Neither the recommended loop nor another carrier settles more plants than drive.interpolation = \"step\" "
+      "(no notch) at 60 kHz: of 8, 3 settle within 60 carrier periods, 0 later, 5 never.");
+  EXPECT_NE(choice(3, 4, 3).find("settles two plants more than drive"), std::string::npos);
+  EXPECT_NE(choice(0, 0, 0).find("of 8, 0 settle within 60 carrier periods, 0 later, 8 never."),
+            std::string::npos);
+}
+
+// The Controller says then that the drive holds the plant.
+TEST(NaturalModeTest, TellsAPlantThatSettlesLateFromOneThatNeverDoes) {
+  EXPECT_NE(choice(tried({7, 1, 0}, 7, 6))
+                .find("of 8, 7 settle within 60 carrier periods, 1 later, 0 never."),
+            std::string::npos);
+}
+
+TEST(NaturalModeTest, ChoosesNoLoopThatTheSceneCannotHave) {
+  EXPECT_EQ(choice_without_loop(8, 8).find("recommended loop"), std::string::npos);
+  EXPECT_EQ(
+      choice_without_loop(3, 8),
+      "All 8 plants settle within 60 carrier periods with drive.interpolation = \"step\" (no notch) at 63 kHz, "
+      "so the carrier is enough. At 60 kHz 3 do. This scene cannot have the recommended loop.");
+  EXPECT_EQ(
+      choice_without_loop(3, 6),
+      "No other carrier settles all 8 plants within 60 carrier periods. Begin with the carrier 63 kHz, by which 6 "
+      "settle, and run design again there. This scene cannot have the recommended loop.");
+  EXPECT_EQ(
+      choice_without_loop(0, 0),
+      "No other carrier settles more plants than drive.interpolation = \"step\" (no notch) at 60 kHz: of 8, 0 "
+      "settle within 60 carrier periods, 0 later, 8 never. This scene cannot have the recommended loop.");
 }
 
 TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
@@ -263,7 +332,7 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
   NaturalModeStudy mistaken = *study.natural_mode;
   mistaken.model_error = true;
   EXPECT_NE(
-      natural_mode_advice(mistaken).at(4).sentence.find("on top of the scene's [model_error]"),
+      natural_mode_advice(mistaken).at(3).sentence.find("on top of the scene's [model_error]"),
       std::string::npos);
   EXPECT_TRUE(
       says("Controller: The best that feeds the drive forward has drive.interpolation = "
