@@ -3,11 +3,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <thread>
 
 #include "host_sim/process/printable.hpp"
 
@@ -52,6 +54,15 @@ void SerialPort::send(const std::uint8_t* bytes, std::size_t size) {
     const auto sent = static_cast<std::size_t>(count < 0 ? 0 : count);
     bytes += sent;
     size -= sent;
+  }
+}
+
+void SerialPort::drain(std::chrono::milliseconds limit) const {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  int waiting = 0;
+  while (ioctl(line_.number(), TIOCOUTQ, &waiting) == 0 && waiting > 0 &&
+         std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(1ms);
   }
 }
 

@@ -26,6 +26,9 @@ class SerialPort {
   /// @throws ProcessError  the device is gone, or takes nothing for a second
   void send(const std::uint8_t* bytes, std::size_t size);
 
+  /// Waits until the line has what was sent. Not for ever, as tcdrain() does where a device takes nothing.
+  void drain(std::chrono::milliseconds limit) const;
+
   /// @param limit  waits this long at most
   /// @return the bytes received, at most `size`; 0: none came
   /// @throws ProcessError  the device is gone

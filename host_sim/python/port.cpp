@@ -339,7 +339,7 @@ void add_port(py::module_& module) {
       .def(py::init<std::string, double>(), py::arg("device"), py::arg("patience_s"))
       .def(
           "close", &Port::close,
-          "close(self)\n--\n\nGives the device free. The unit is left as it is: where it drives, it takes its host for "
+          "close(self)\n--\n\nFrees the device. The unit is left as it is: where it drives, it takes its host for "
           "silent\nafter its parameter host_timeout.")
       .def(
           "identity", &Port::identity,

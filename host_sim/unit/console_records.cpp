@@ -102,7 +102,7 @@ Console::Lines Console::with_caveat(const std::string& answer) const {
 }
 
 Console::Lines Console::step(const Words& words) {
-  if (words.size() == 3 && is_number(words[2])) {  // a file's name hardly is
+  if (words.size() == 3 && is_number(words[2])) {  // likely a third target
     return refuse_usage("step", words);
   }
   std::array<std::uint32_t, 2> targets{};

@@ -25,7 +25,7 @@ class StoppedAtTheEnd {
       unit_.ask<link::Stopped>(link::Stop{});
       unit_.ask<link::TargetSet>(link::SetTarget{target_});
     } catch (const process::ProcessError&) {
-      // It stops by itself: its host is silent from here on.
+      // It stops after its host_timeout, if it has one.
     }
   }
   StoppedAtTheEnd(const StoppedAtTheEnd&) = delete;

@@ -12,6 +12,9 @@ namespace {
 
 using std::chrono::steady_clock;
 
+/// Of a frame: a line may damage one.
+constexpr int tries = 3;
+
 std::uint16_t any_number() {
   return static_cast<std::uint16_t>(std::random_device{}());
 }
@@ -60,7 +63,10 @@ UnitLink::Result<link::Streaming> UnitLink::stream(const link::Stream& stream) {
 void UnitLink::send_stop() const noexcept {
   try {
     const link::WireFrame wire = link::encode(link::frame_of(link::Stop{}, 0));
-    port_.send(wire.bytes.data(), wire.size);
+    for (int i = 0; i < tries; ++i) {
+      port_.send(wire.bytes.data(), wire.size);
+    }
+    port_.drain(std::chrono::milliseconds(500));
   } catch (const process::ProcessError&) {  // the device is gone
   }
 }
@@ -77,7 +83,6 @@ link::Frame UnitLink::exchange(link::Frame request, std::chrono::milliseconds pa
 }
 
 link::Frame UnitLink::answer_to(const link::Frame& request, std::chrono::milliseconds patience) {
-  constexpr int tries = 3;
   const link::WireFrame wire = link::encode(request);
   link::Frame answer;
   for (int i = 0; i < tries; ++i) {

@@ -59,8 +59,8 @@ class UnitLink {
   /// @throws process::ProcessError  no answer came
   Result<link::Streaming> stream(const link::Stream& stream);
 
-  /// Sends a stop and waits for no answer. Unlike all else it may be called while another thread asks: a unit obeys a
-  /// stop of any sequence number.
+  /// Sends a stop three times and waits for no answer, so that the process may end at once. Unlike all else it may be
+  /// called while another thread asks: a unit obeys a stop of any sequence number.
   void send_stop() const noexcept;
 
   /// The samples of a stream that have come since the last call, in their order; of more than 65536 the

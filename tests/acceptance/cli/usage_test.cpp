@@ -94,10 +94,11 @@ TEST(UsageTest, EmptyNamesAreRefused) {
 TEST(UsageTest, ASceneInPlaceOfTheDeviceIsSeenBeforeAnythingIsRead) {
   const ScratchFolder folder;
   folder.write("a.toml", "");
+  const Outcome outcome = folder.run("commission a.toml /dev/nowhere");
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(
-      folder.run("commission a.toml /dev/nowhere")
-          .err.find(
-              "sonoglide: device: \"a.toml\" is a file; allowed: a serial device, and then the scene\n"),
+      outcome.err.find(
+          "sonoglide: device: \"a.toml\" is a file; allowed: a serial device, and then the scene\n"),
       0U);
 }
 

@@ -277,6 +277,17 @@ TEST_F(ConsoleOfAHistory, TellsIt) {
   EXPECT_EQ(ask("log"), (Lines{"faults since reset: 0"}));
 }
 
+TEST(CauseName, HasWordsForEachCause) {
+  Lines names;
+  for (const hal::ResetCause cause :
+       {hal::ResetCause::power_on, hal::ResetCause::reset, hal::ResetCause::watchdog,
+        hal::ResetCause::exception, hal::ResetCause::crystal}) {
+    names.emplace_back(cause_name(static_cast<std::uint8_t>(cause)));
+  }
+  EXPECT_EQ(names, (Lines{"power-on", "a reset", "a reset by the watchdog", "an exception",
+                          "a failure of the crystal"}));
+}
+
 TEST_F(ConsoleTest, AUnitWithoutAHistorySaysSo) {
   EXPECT_EQ(ask("history"), (Lines{"the unit keeps no history"}));
   EXPECT_EQ(console_.refused(), 1U);
@@ -1001,6 +1012,31 @@ TEST(UnitLinkTest, AUnitThatTellsNoScalesIsTooOld) {
                                 ": does not tell its scales: its firmware is older than this "
                                 "program; build its image again");
   }
+}
+
+TEST(UnitLinkTest, AStopThatWaitsForNoAnswerIsSentThreeTimes) {
+  const PseudoTerminal terminal;
+  process::SerialPort port(terminal.device());
+  std::optional<FakeUnit> unit(std::in_place, terminal, [](const link::Frame& request) {
+    link::Hello hello{};
+    return link::read(request, hello)
+               ? link::frame_of(link::Greeted{hello.session, 0}, request.sequence)
+               : refused_as_unknown(request);
+  });
+  const UnitLink link(port);
+  unit.reset();
+  link.send_stop();
+  const TerminalLink line(terminal);
+  link::FrameDecoder decoder;
+  int stops = 0;
+  for (std::uint8_t byte = 0;
+       stops < 3 && process::wait_for_input(terminal.number(), std::chrono::seconds(10));) {
+    ASSERT_TRUE(line.receive(byte));
+    link::Stop stop{};
+    stops +=
+        decoder.take(byte) == link::Reception::frame && link::read(decoder.frame(), stop) ? 1 : 0;
+  }
+  EXPECT_EQ(stops, 3);
 }
 
 TEST(UnitLinkTest, KnowsAUnitOfAnotherVersion) {

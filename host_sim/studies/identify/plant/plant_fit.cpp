@@ -107,6 +107,16 @@ void add_estimates(const PlantProblem& problem, const LeastSquaresFit& fit,
   }
 }
 
+/// Of the actuator whose full force was found to be another.
+void add_bias(const scene::Drive& stated, PlantFit& found) {
+  const auto force = std::find_if(found.changed.begin(), found.changed.end(),
+                                  [](const auto& each) { return each.first == force_key; });
+  if (stated.bias_limit_N > 0.0 && force != found.changed.end()) {
+    const double factor = force->second / stated.max_force_amplitude_N;
+    found.changed.emplace_back(bias_key, factor * stated.bias_limit_N);
+  }
+}
+
 double rms_of(const LeastSquaresFit& fit) {
   return std::sqrt(fit.sum_of_squares / static_cast<double>(fit.residuals.size()));
 }
@@ -129,24 +139,44 @@ FittedProblem fitted(const configure::Experiment& nominal, const std::vector<Str
   return fitted;
 }
 
+/// Noise of the sensor is hardly ever smaller: nothing is left for another unknown.
+bool is_explained(const LeastSquaresFit& fit, double expected) {
+  constexpr double deviations = 3.0;
+  const double of_rms = expected / std::sqrt(2.0 * static_cast<double>(fit.residuals.size()));
+  return rms_of(fit) < expected - deviations * of_rms;
+}
+
+/// The interval of the full force excludes that of the scene: it allows for rounding too.
+bool is_another(const FittedProblem& with_force, const std::vector<Stretch>& stretches,
+                const Expected& expected) {
+  const auto& [problem, start, fit] = with_force;
+  const Deviations deviations = plant::deviations(fit, problem->slopes(fit), stretches, expected);
+  const double moved = std::log(problem->full_force(fit.parameters));
+  return std::abs(moved) >
+         deviations.student * deviations.of_parameters(problem->index_of(force_key));
+}
+
 /// With the full force of the drive as the scene has it. Where no such plant fits, with the force that fits, if one
 /// does: else the damper and the spring would make up for a force, or a mass, that is otherwise.
 FittedProblem fitted(const configure::Experiment& nominal, const std::vector<Stretch>& stretches,
-                     double expected, const std::function<void(double)>& progress,
+                     const Expected& expected, const std::function<void(double)>& progress,
                      Identification& told) {
-  FittedProblem stated = fitted(nominal, stretches, FullForce::stated, progress);
-  if (rms_of(stated.fit) <= much * expected || nominal.nominal.transducer) {
+  FittedProblem stated =
+      fitted(nominal, stretches, FullForce::stated, [&](double part) { progress(0.5 * part); });
+  if (is_explained(stated.fit, expected.deviation()) || nominal.nominal.transducer) {
     return stated;
   }
-  FittedProblem free = fitted(nominal, stretches, FullForce::fitted, [](double) {});
-  if (much * rms_of(free.fit) >= rms_of(stated.fit)) {
+  FittedProblem free = fitted(nominal, stretches, FullForce::fitted,
+                              [&](double part) { progress(0.5 + 0.5 * part); });
+  if (!explains_more(free.fit, stated.fit, expected.deviation()) ||
+      !is_another(free, stretches, expected)) {
     return stated;
   }
+  const char* const bias = nominal.nominal.drive->bias_limit_N > 0.0 ? ", bias" : "";
   told.cannot_tell.push_back(fmt::format(
-      "{}: whether it is the force or plant.mass_kg that is otherwise. The plant fits with this force and the mass of the "
-      "scene. A mass that is off would change force, spring and damper by its own factor, and the controller would be the "
-      "same.",
-      force_key));
+      "{}: whether the force or plant.mass_kg differs from the scene. The value found assumes the scene's mass. A mass "
+      "that is off would change force{}, spring and damper by its own factor, and the controller would be the same.",
+      force_key, bias));
   return free;
 }
 
@@ -202,7 +232,7 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
   const Expected expected = plant::expected(nominal.nominal.sensor);
   PlantFit found;
   auto [its_problem, start, fit] = fitted(
-      nominal, stretches, expected.deviation(), [&](double part) { progress(0.5 * part); },
+      nominal, stretches, expected, [&](double part) { progress(0.5 * part); },
       found.identification);
   const PlantProblem& problem = *its_problem;
   found.identification.subject = "plant";
@@ -217,6 +247,7 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
   progress(1.0);
   const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
   add_estimates(problem, fit, springs, deviations, found);
+  add_bias(*nominal.nominal.drive, found);
   add_warnings(fit, readings(stretches.front()).mean(), found);
   Eigen::Index first = 0;
   for (const Stretch& each : stretches) {

@@ -103,13 +103,23 @@ double PlantProblem::value(const Eigen::VectorXd& parameters, std::size_t unknow
                     range.most);
 }
 
+double PlantProblem::full_force(const Eigen::VectorXd& parameters) const {
+  const Eigen::Index force = index_of(force_key);
+  const auto place = static_cast<std::size_t>(force);
+  return force < 0 ? 1.0 : value(parameters, place) / unknowns_[place].stated;
+}
+
 std::optional<scene::Scene> PlantProblem::plant(const Eigen::VectorXd& parameters) const {
   std::vector<scene_file::VariedValue> values;
   for (std::size_t i = 0; i < unknowns_.size(); ++i) {
     values.emplace_back(value(parameters, i));
   }
   try {
-    return scene_file::read_truth(document_, values, nominal_.nominal);
+    scene::Scene plant = scene_file::read_truth(document_, values, nominal_.nominal);
+    if (plant.drive && plant.drive->bias_limit_N > 0.0) {
+      plant.drive->bias_limit_N *= full_force(parameters);
+    }
+    return plant;
   } catch (const scene_file::SceneError&) {
     return std::nullopt;
   }

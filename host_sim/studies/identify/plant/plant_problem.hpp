@@ -33,6 +33,9 @@ inline constexpr const char* damping_key = "plant.damping_N_s_per_m";
 
 inline constexpr const char* force_key = "drive.max_force_amplitude_N";
 
+/// Of the same actuator: fitted as the same multiple of what the scene states.
+inline constexpr const char* bias_key = "drive.bias_limit_N";
+
 enum class FullForce {
   stated,  ///< by the scene
   fitted,  ///< with the others, where there is no transducer whose force factor is one with it
@@ -62,6 +65,9 @@ class PlantProblem {
 
   /// Of an unknown; beyond an end of its range that end, so that a search comes back from there.
   double value(const Eigen::VectorXd& parameters, std::size_t unknown) const;
+
+  /// Over that of the scene; 1 where it is not fitted.
+  double full_force(const Eigen::VectorXd& parameters) const;
 
   /// The scene whose plant has these values; nothing where they are those of none.
   std::optional<scene::Scene> plant(const Eigen::VectorXd& parameters) const;

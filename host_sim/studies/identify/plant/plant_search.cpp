@@ -29,6 +29,9 @@ double margin(std::size_t springs, Eigen::Index numbers) {
   return of_one_spring + 2.0 * many + 2.0 * std::sqrt(static_cast<double>(numbers) * many);
 }
 
+/// Of those where a fit may begin.
+constexpr int springs_to_a_side = 24;
+
 /// Springs that are fitted, apart in their logarithm; between them what they are fitted by is taken from them.
 constexpr double coarse_step = 0.02;
 
@@ -42,13 +45,12 @@ constexpr auto is_better = [](const auto& a, const auto& b) {
 /// Where the fit may begin: springs and contacts over a grid, the best first.
 std::vector<Eigen::VectorXd> starts(const PlantProblem& problem, const Eigen::VectorXd& start,
                                     std::size_t most) {
-  constexpr int springs = 24;  // to either side
   constexpr double spring_step = 0.015;
   constexpr int contacts = 2;
   constexpr double contact_step = 0.45;
   const Eigen::Index contact = problem.index_of("friction.contact_stiffness_N_per_m");
   std::vector<std::pair<double, Eigen::VectorXd>> all;
-  for (int i = -springs; i <= springs; ++i) {
+  for (int i = -springs_to_a_side; i <= springs_to_a_side; ++i) {
     for (int k = -contacts; k <= contacts; ++k) {
       Eigen::VectorXd place = start;
       place(0) += spring_step * i;
@@ -93,6 +95,13 @@ LeastSquaresFit best_fit(const PlantProblem& problem, const Eigen::VectorXd& sta
     progress((1.0 + static_cast<double>(window)) / windows.size());
   }
   return problem.polished(fits.front());
+}
+
+bool explains_more(const LeastSquaresFit& fuller, const LeastSquaresFit& fit, double expected) {
+  constexpr std::size_t springs = 2 * springs_to_a_side + 1;
+  const double noise =
+      margin(springs, fuller.parameters.size()) * variance(fuller.residuals, expected);
+  return fit.sum_of_squares - fuller.sum_of_squares > noise;
 }
 
 bool swings_are_plain(const PlantProblem& problem, const LeastSquaresFit& fit, double expected) {

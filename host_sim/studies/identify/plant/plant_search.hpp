@@ -17,6 +17,11 @@ namespace sonoglide::identify::plant {
 LeastSquaresFit best_fit(const PlantProblem& problem, const Eigen::VectorXd& start,
                          const std::function<void(double)>& progress);
 
+/// A fit with one more unknown is better by more than noise makes the best of the springs that best_fit() tries: an
+/// F-test of the unknown at so many springs.
+/// @param expected  deviation of a reading
+bool explains_more(const LeastSquaresFit& fuller, const LeastSquaresFit& fit, double expected);
+
 /// What the stretches swing by is plain in the readings: then no other mode turns as theirs does.
 /// @param expected  deviation of a reading
 bool swings_are_plain(const PlantProblem& problem, const LeastSquaresFit& fit, double expected);

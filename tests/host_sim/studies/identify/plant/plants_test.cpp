@@ -1,4 +1,5 @@
 /// Plants at random, as they are found by the readings of 12 bits of a unit that was designed for another.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +9,9 @@
 #include <vector>
 
 #include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/studies/identify/plant/plant_problem.hpp"
 #include "host_sim/studies/identify/plant/study.hpp"
+#include "host_sim/studies/identify/plant/uncertainty.hpp"
 #include "tests/common/csv/csv.hpp"
 #include "tests/host_sim/studies/identify/plant/commissioned/commissioned.hpp"
 #include "tests/host_sim/studies/identify/plant/commissioned/recorded.hpp"
@@ -69,30 +72,65 @@ TEST(IdentifiedPlants, OneIsAsRecorded) {
   EXPECT_EQ(found.commissioned, row.number("prompt_commissioned"));
 }
 
-/// A drive and a mass that are each 5 % off, which no spring and no damper of the scene's mass makes up for.
-TEST(IdentifiedPlants, AForceAndAMassThatAreOffAreFittedAsAForce) {
+struct FullForceCase {
+  double mass_kg;
+  double force_N;
+};
+
+class AnotherFullForce : public testing::TestWithParam<FullForceCase> {};
+
+/// No spring and no damper of the scene's mass makes up for it.
+TEST_P(AnotherFullForce, IsFittedWhateverOfForceAndMassIsOff) {
+  const auto [mass_kg, force_N] = GetParam();
   const configure::Experiment scene = experiment::read_file(
-      SCENES "target_step.toml", {"sensor.adc_bits=12", "true_values.plant.mass_kg=0.021",
-                                  "true_values.drive.max_force_amplitude_N=1824"});
+      SCENES "target_step.toml",
+      {"sensor.adc_bits=12", fmt::format("true_values.plant.mass_kg={}", mass_kg),
+       fmt::format("true_values.drive.max_force_amplitude_N={}", force_N)});
+  const double factor = mass_kg / scene.nominal.plant.mass_kg;
   const PlantStudy found =
-      study(scene, test::recorded(scene, targets(scene.nominal), 512, 32), [](double) {});
+      study(scene, test::recorded(scene, targets(scene.nominal), 256, 32), [](double) {});
   const Identification& told = found.fit.identification;
   const auto value = [&](const std::string& key) {
     return std::find_if(told.parameters.begin(), told.parameters.end(),
                         [&](const Estimate& each) { return each.name == key; })
         ->value;
   };
-  EXPECT_NEAR(value("drive.max_force_amplitude_N"), 1824.0 / 1.05, 4.0);
-  EXPECT_NEAR(value("plant.stiffness_N_per_m"), 133e6 / 1.05, 133e6 * 1e-3);
+  EXPECT_NEAR(value("drive.max_force_amplitude_N"), force_N / factor, 4.0);
+  EXPECT_NEAR(value("plant.stiffness_N_per_m"), 133e6 / factor, 133e6 * 1e-3);
   EXPECT_TRUE(told.warnings.empty()) << told.warnings.front();
   EXPECT_EQ(
       told.cannot_tell.front().rfind(
-          "drive.max_force_amplitude_N: whether it is the force or plant.mass_kg that is otherwise.",
+          "drive.max_force_amplitude_N: whether the force or plant.mass_kg differs from the scene.",
           0),
       0U);
   for (const StepComparison& each : found.steps) {
     EXPECT_LT(each.commissioned.settling_time_s.value_or(1.0), 1e-3);
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AnotherFullForce,
+                         testing::Values(FullForceCase{0.021, 1824.0},
+                                         FullForceCase{0.0202, 1920.0}));
+
+/// Of a unit whose force and bias are so many times those of the scene, with the true force fitted.
+double rms_of_residuals(double force, double bias) {
+  configure::Experiment scene = experiment::read_file(
+      SLOW_MODE, {fmt::format("true_values.drive.max_force_amplitude_N={}", force * 2200.0),
+                  "true_values.plant.damping_N_s_per_m=0.4524"});
+  scene.plant.drive->bias_limit_N *= bias;
+  const std::vector<Stretch> stretches = test::recorded(scene, {0.9, 0.4}, 128, 32);
+  const PlantProblem problem(scene, stretches, FullForce::fitted);
+  Eigen::VectorXd parameters = problem.start();
+  parameters(problem.index_of(force_key)) += std::log(force);
+  const Eigen::VectorXd residuals = problem.residuals(parameters, PlantProblem::all_steps);
+  const double expected = plant::expected(scene.nominal.sensor).deviation();
+  return std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())) / expected;
+}
+
+/// One actuator drives both.
+TEST(IdentifiedPlants, ABiasIsOffByTheFactorOfTheForce) {
+  EXPECT_LT(rms_of_residuals(0.9, 0.9), 1.5);
+  EXPECT_GT(rms_of_residuals(0.9, 1.0), 3.0);
 }
 
 PlantStudy found_in_noise(const std::vector<std::string>& sensor) {
