@@ -375,8 +375,8 @@ void add_port(py::module_& module) {
       .def(
           "exception", &Port::exception,
           "exception(self)\n--\n\nThe exception of the processor that ended the run before the last reset, or with a "
-          "history the\nlast one ever: its number and what the registers held. None: there was none, or the image keeps "
-          "none.")
+          "history the\nlast one ever: its number and what the registers held. None: there was none, or the image "
+          "keeps\nnone.")
       .def(
           "history", &Port::history,
           "history(self)\n--\n\nOver all resets: boots, the cause of the last one, operation_s, watchdog_resets, "

@@ -16,11 +16,12 @@ class Port(_core.Port):
     device      path of the serial device; 115200 baud
     patience_s  how long an answer may take before the request is sent again, twice
 
-    One port or program at a time has a device: close() frees the device, and so does the end of
+    One port or program at a time has a device: close() frees it, and so does the end of
     `with Port(...) as unit:`.
 
-    OSError: the device is absent, silent or no unit, or the port is closed. ValueError: a value that the unit does not have; the
-    message has its range. RuntimeError: the unit refuses the request as things are, and says why.
+    OSError: the device is absent, silent or no unit, or the port is closed. ValueError: a value that the
+    unit does not have; the message has its range. RuntimeError: the unit refuses the request as things
+    are, and says why.
     """
 
     def __init__(self, device: str | os.PathLike[str], patience_s: float = 0.4) -> None:
