@@ -107,6 +107,9 @@ std::string tally_text(const Tally& tally) {
                      tally.never);
 }
 
+/// Of the controller of damped_by_force.toml: float32 on a Cortex-M4F to Q31 on a Cortex-M3.
+constexpr const char* observer_cost = "1085 to 2106 instructions a period and 18 kB";
+
 Advice controller_advice(const NaturalModeStudy& mode) {
   const QuietDrive& best = mode.drives[mode.best_drive];
   const std::string found = fmt::format("{} ({}): of {}, {}.", word(best), means(best), tried(mode),
@@ -118,16 +121,18 @@ Advice controller_advice(const NaturalModeStudy& mode) {
         fmt::format("The cheapest that holds this plant feeds the drive forward with {} It needs "
                     "no observer of the mode{}.",
                     found,
-                    shown ? " (controller.vibration = \"damped\", 1158 to 2633 instructions a "
-                            "period and 26 kB without a vibration sensor)"
+                    shown ? fmt::format(" (controller.vibration = \"damped\", {} without a "
+                                        "vibration sensor)",
+                                        observer_cost)
                           : "")};
   }
   return {"Controller",
           fmt::format("The best that feeds the drive forward has {} For the others use another "
                       "carrier, or controller.vibration = \"damped\"{}.",
                       found,
-                      shown ? ", best with a vibration sensor; without one its observer takes 1158 "
-                              "to 2633 instructions a period and 26 kB"
+                      shown ? fmt::format(", best with a vibration sensor; without one its "
+                                          "observer takes {}",
+                                          observer_cost)
                             : " with a vibration sensor")};
 }
 

@@ -2,13 +2,18 @@
 
 #include "host_sim/studies/design/natural_mode.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
+#include "tests/common/csv/csv.hpp"
 #include "tests/host_sim/loop/steady/scenes/steady_scenes.hpp"
 
 namespace sonoglide::design::natural_mode_test {
@@ -287,6 +292,25 @@ TEST(NaturalModeTest, SaysSoWhereNothingSettlesMoreThanTheDrive) {
   EXPECT_NE(choice(3, 4, 3).find("settles two plants more than drive"), std::string::npos);
   EXPECT_NE(choice(0, 0, 0).find("of 8, 0 settle within 60 carrier periods, 0 later, 8 never."),
             std::string::npos);
+}
+
+TEST(NaturalModeTest, TellsWhatTheObserverCostsByTheBudget) {
+  std::ifstream file(SONOGLIDE_BUDGET);
+  const csv::Table budget({std::istreambuf_iterator<char>(file), {}}, SONOGLIDE_BUDGET);
+  const auto row = [&](const std::string& board, const std::string& arithmetic) -> const csv::Row& {
+    return *std::find_if(budget.rows().begin(), budget.rows().end(), [&](const csv::Row& each) {
+      return each.text("scene") == "damped_by_force" && each.text("board") == board &&
+             each.text("arithmetic") == arithmetic;
+    });
+  };
+  const csv::Row& least = row("mps2-an386", "float32");
+  const csv::Row& most = row("mps2-an385", "q31");
+  const std::string cost =
+      fmt::format("{:.0f} to {:.0f} instructions a period and {:.0f} kB",
+                  least.number("step_instructions_mean"), most.number("step_instructions_mean"),
+                  most.number("flash_bytes") / 1e3);
+  const std::string told = natural_mode_advice(tried({7, 1, 0}, 7, 6)).at(2).sentence;
+  EXPECT_NE(told.find(cost), std::string::npos) << cost << "\n" << told;
 }
 
 // The Controller says then that the drive holds the plant.
