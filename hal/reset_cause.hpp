@@ -22,9 +22,10 @@ bool ram_was_kept();
 namespace detail {
 
 template <class Watchdog, class = void>
-constexpr bool watches_crystal = false;
+inline constexpr bool watches_crystal = false;
 template <class Watchdog>
-constexpr bool watches_crystal<Watchdog, std::void_t<decltype(Watchdog::crystal_failed())>> = true;
+inline constexpr bool watches_crystal<Watchdog, std::void_t<decltype(Watchdog::crystal_failed())>> =
+    true;
 
 }  // namespace detail
 

@@ -16,6 +16,7 @@
 #include "firmware/image/carrier/carrier_board.hpp"
 #include "hal/kept_exception.hpp"
 #include "hal/reset_cause.hpp"
+#include "hal/start/image_end.hpp"
 #include "hal/start/stored_image.hpp"
 #include "hal/trace_records.hpp"
 
@@ -82,6 +83,9 @@ extern "C" void take_carrier() {
   Service service(unit, bytes);
   CarrierBoard board(ticks);
   app::tune(board, configuration::carrier_period_s);
+  if (!image_test.passed()) {
+    shutdown();  // damaged code may write anything to the carrier
+  }
   Loop own(unit.supervisor(), board, watchdog, service);
   loop = &own;
   CarrierBoard::interrupt();

@@ -18,6 +18,7 @@
 #include "hal/kept_exception.hpp"
 #include "hal/reset_cause.hpp"
 #include "hal/serial_line.hpp"
+#include "hal/start/image_end.hpp"
 #include "hal/start/stored_image.hpp"
 #include "hal/timed/board.hpp"
 #include "hal/trace_records.hpp"
@@ -116,6 +117,9 @@ int main() {
                    sonoglide::hal::bytes_in(Hardware::ByteLink::baud, period_s), Product>
       service(unit, bytes);
   auto board = make_board<Hardware::Board>();
+  if (!image_test.passed()) {
+    shutdown();  // damaged code may write anything to the carrier
+  }
   app::TimedLoop loop(unit.supervisor(), board, watchdog, service);
   while (loop.serve()) {
   }

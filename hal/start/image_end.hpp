@@ -3,7 +3,8 @@
 
 extern "C" {
 
-/// Switches the drive off, at once. Whatever ends an image calls it, in the end again and again. It needs neither
+/// Switches the drive off, at once. Whatever ends an image calls it, in the end again and again; a unit whose image is
+/// damaged calls it once, before its first carrier period. It needs neither
 /// stack nor static data, because an exception may come from there being none: it calls nothing and writes
 /// registers of the board.
 void shutdown();
