@@ -59,7 +59,7 @@ class SceneFolder : public ScratchFolder {
 /// The words of a command with another scene than the table's.
 inline std::string words_with_scene(const Command& command, const std::string& scene) {
   // No serial device.
-  const char* const device = command.effort == Effort::device ? " measured.csv" : "";
+  const char* const device = command.effort == Effort::device ? " /dev/null" : "";
   return command.name + device + " " + scene + " " + command.arguments;
 }
 

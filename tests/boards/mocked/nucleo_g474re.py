@@ -167,8 +167,8 @@ class Board(Machine):
 
     def update(self):
         """The end of a carrier period: what was written takes effect."""
-        self.in_force = [self.registers[CARRIER + RELOAD]] + [
-            self.registers[CARRIER + COMPARE + 4 * i] for i in range(4)]
+        self.in_force = [self.registers.get(CARRIER + RELOAD, 0xFFFF)] + [
+            self.registers.get(CARRIER + COMPARE + 4 * i, 0) for i in range(4)]
         self.events[CARRIER] |= 1
         self.carrier_periods += 1
         if self.registers.get(ENCODER + CONTROL_1, 0) & 1:
@@ -227,12 +227,12 @@ class Board(Machine):
                        self.registers.get(CARRIER + 0x0C, 0) & 1)
 
     def half_period(self):
-        return self.registers[CARRIER + RELOAD]
+        return self.registers.get(CARRIER + RELOAD, 0xFFFF)
 
     def written_amplitude(self):
         """Of the fundamental that the registers will make from the next period on; of full scale."""
         half = self.half_period()
-        a, a_top, b, b_top = (self.registers[CARRIER + COMPARE + 4 * i] for i in range(4))
+        a, a_top, b, b_top = (self.registers.get(CARRIER + COMPARE + 4 * i, 0) for i in range(4))
         assert a == half - b_top and b == half - a_top and (a == 0 or b == 0), "the pulses of the legs are not alike"
         assert max(a, b) <= half // 2, "the legs are high together"
         return math.sin(math.pi * (a - b) / half)
