@@ -324,20 +324,32 @@ bool has_model_error(const scene::Scene& scene) {
          error.force_factor != 1.0 || error.damping != 1.0;
 }
 
-}  // namespace
-
-std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
+/// The carrier at which the most plants settle; between equals the nearest to the scene's own.
+/// @param own_settled  what counts as settled at the scene's own
+std::size_t best_carrier(const NaturalModeStudy& study, int own_settled) {
   const auto rank = [&](std::size_t i) {
     const std::size_t distance = i > study.own ? i - study.own : study.own - i;
-    const std::size_t settled = study.carriers[i].plants.settled;
-    return std::pair(settled + (i == study.own ? worth_a_change - 1 : 0),
-                     study.carriers.size() - distance);
+    return std::pair(
+        i == study.own ? own_settled : static_cast<int>(study.carriers[i].plants.settled),
+        study.carriers.size() - distance);
   };
   std::size_t best = study.own;
   for (std::size_t i = 0; i < study.carriers.size(); ++i) {
     best = rank(i) > rank(best) ? i : best;
   }
+  return best;
+}
+
+}  // namespace
+
+std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study) {
+  const std::size_t own = study.carriers[study.own].plants.settled;
+  const std::size_t best = best_carrier(study, static_cast<int>(own + worth_a_change - 1));
   return study.carriers[best].plants.settled > 0 ? std::optional(best) : std::nullopt;
+}
+
+const CarrierPoint& best_other_carrier(const NaturalModeStudy& study) {
+  return study.carriers[best_carrier(study, -1)];
 }
 
 std::optional<NaturalModeStudy> natural_mode_study(const scene::Scene& stated,

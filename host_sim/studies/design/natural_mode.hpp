@@ -94,6 +94,9 @@ inline constexpr std::size_t worth_a_change = 2;
 /// none if none settles.
 std::optional<std::size_t> recommended_carrier(const NaturalModeStudy& study);
 
+/// The other carrier at which the most plants settle; between equals the nearest. There are at least two.
+const CarrierPoint& best_other_carrier(const NaturalModeStudy& study);
+
 /// Of a loop off resonance whose plant has a natural mode; else none. Under a law whose vibration is across the
 /// sliding, the swing of the ratio is that of one along it.
 /// @param stated  as the controller knows it

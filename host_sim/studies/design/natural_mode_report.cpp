@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -9,26 +8,10 @@
 #include "host_sim/output/chart.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/scene/names.hpp"
+#include "host_sim/studies/design/natural_mode_words.hpp"
 #include "host_sim/studies/design/report.hpp"
 
 namespace sonoglide::design {
-namespace {
-
-using nlohmann::ordered_json;
-
-const char* name(configure::Quieting quieting) {
-  switch (quieting) {
-    case configure::Quieting::notch:
-      return "notch";
-    case configure::Quieting::ramp:
-      return "ramp";
-    case configure::Quieting::ramp_and_notch:
-      return "ramp_and_notch";
-    case configure::Quieting::nothing:
-      break;
-  }
-  return "nothing";
-}
 
 std::string means(const QuietDrive& drive) {
   std::string notch = fmt::format("a notch of {} taps", drive.tap_count);
@@ -48,6 +31,33 @@ std::string means(const QuietDrive& drive) {
 std::string word(const QuietDrive& drive) {
   return fmt::format("drive.interpolation = \"{}\"",
                      scene::name_of(scene::interpolations, drive.interpolation));
+}
+
+std::string promptly() {
+  return fmt::format("within {} carrier periods", prompt_periods);
+}
+
+std::string tally_text(const Tally& tally) {
+  return fmt::format("{} settle {}, {} later, {} never", tally.settled, promptly(), tally.late,
+                     tally.never);
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* name(configure::Quieting quieting) {
+  switch (quieting) {
+    case configure::Quieting::notch:
+      return "notch";
+    case configure::Quieting::ramp:
+      return "ramp";
+    case configure::Quieting::ramp_and_notch:
+      return "ramp_and_notch";
+    case configure::Quieting::nothing:
+      break;
+  }
+  return "nothing";
 }
 
 /// A swing by more than half cannot be: the ratio of a contact stays between -1 and 1.
@@ -96,15 +106,6 @@ Advice mode_advice(const NaturalModeStudy& mode) {
                   output::quantity(mode.natural_Hz, "Hz"), own.mode_per_carrier, own.from_multiple,
                   multiple(own), 100.0 * mode.range, left_behind(mode.drives.front()),
                   left_behind(mode.drives.back()))};
-}
-
-std::string promptly() {
-  return fmt::format("within {} carrier periods", prompt_periods);
-}
-
-std::string tally_text(const Tally& tally) {
-  return fmt::format("{} settle {}, {} later, {} never", tally.settled, promptly(), tally.late,
-                     tally.never);
 }
 
 /// Of the controller of damped_by_force.toml: float32 on a Cortex-M4F to Q31 on a Cortex-M3.
@@ -203,19 +204,6 @@ Advice bias_advice(const NaturalModeStudy& mode) {
                       tally_text(mode.bias->plants))};
 }
 
-/// The other carrier at which the most plants settle; between equals the nearest.
-const CarrierPoint& best_other_carrier(const NaturalModeStudy& mode) {
-  const auto rank = [&](std::size_t i) {
-    const std::size_t distance = i > mode.own ? i - mode.own : mode.own - i;
-    return std::pair(mode.carriers[i].plants.settled, mode.carriers.size() - distance);
-  };
-  std::size_t best = mode.own == 0 ? 1 : 0;
-  for (std::size_t i = 0; i < mode.carriers.size(); ++i) {
-    best = i != mode.own && rank(i) > rank(best) ? i : best;
-  }
-  return mode.carriers[best];
-}
-
 Advice carrier_advice(const NaturalModeStudy& mode) {
   const CarrierPoint& own = mode.carriers[mode.own];
   const auto settled = [&](const CarrierPoint& point) {
@@ -245,101 +233,6 @@ Advice carrier_advice(const NaturalModeStudy& mode) {
                                  output::quantity(best.frequency_Hz, "Hz"),
                                  output::quantity(own.frequency_Hz, "Hz"), tried(mode),
                                  settled(best), own.plants.settled, far)};
-}
-
-/// What there is to choose from, as sentences have it.
-struct Choices {
-  std::size_t plants;
-  std::string drive;  ///< the best that is fed forward
-  std::string here;   ///< the scene's carrier
-  std::string there;  ///< the best other carrier
-  Tally driven;       ///< with the drive here
-  Tally elsewhere;    ///< with the drive there
-  Tally looped;       ///< with the recommended loop here
-  bool has_loop;
-};
-
-Choices choices_of(const NaturalModeStudy& mode) {
-  const QuietDrive& drive = mode.drives[mode.best_drive];
-  const CarrierPoint& other = best_other_carrier(mode);
-  return {mode.plants,
-          fmt::format("{} ({})", word(drive), means(drive)),
-          output::quantity(mode.carriers[mode.own].frequency_Hz, "Hz"),
-          output::quantity(other.frequency_Hz, "Hz"),
-          drive.plants,
-          other.plants,
-          mode.recommended_loop.plants,
-          mode.recommended_loop.refused.empty()};
-}
-
-constexpr const char* no_loop = "This scene cannot have the recommended loop.";
-
-std::string all_with_drive(const Choices& choices, bool loop_is_for_more) {
-  return fmt::format(
-      "All {} plants settle {} with {} at {}: a scene that has this may keep it.{}", choices.plants,
-      promptly(), choices.drive, choices.here,
-      loop_is_for_more ? " The recommended loop is for a stiffness that may be farther off." : "");
-}
-
-std::string all_with_loop(const Choices& choices) {
-  return fmt::format(
-      "All {} plants settle {} with the recommended loop at {}, {} of them without it. {}",
-      choices.plants, promptly(), choices.here, choices.driven.settled,
-      choices.elsewhere.settled == choices.plants
-          ? fmt::format("Or keep {} and change the carrier to {}: one of the two is enough.",
-                        choices.drive, choices.there)
-          : "The carrier may stay as it is.");
-}
-
-std::string all_elsewhere(const Choices& choices) {
-  return fmt::format(
-      "All {} plants settle {} with {} at {}, so the carrier is enough. At {} {} do{}",
-      choices.plants, promptly(), choices.drive, choices.there, choices.here,
-      choices.driven.settled,
-      choices.has_loop ? fmt::format(", with the recommended loop {}.", choices.looped.settled)
-                       : fmt::format(". {}", no_loop));
-}
-
-std::string begin_with(const Choices& choices, bool loop_is_best) {
-  const std::string begin =
-      fmt::format("Begin with the {}, by which {} settle, and run design again",
-                  loop_is_best ? std::string("recommended loop") : "carrier " + choices.there,
-                  loop_is_best ? choices.looped.settled : choices.elsewhere.settled);
-  return choices.has_loop
-             ? fmt::format(
-                   "Neither the recommended loop nor another carrier settles all {} plants {}. {}: "
-                   "the loop was tried at {} alone, the carriers with {}.",
-                   choices.plants, promptly(), begin, choices.here, choices.drive)
-             : fmt::format("No other carrier settles all {} plants {}. {} there. {}",
-                           choices.plants, promptly(), begin, no_loop);
-}
-
-std::string nothing_gained(const Choices& choices, bool some_gain) {
-  return fmt::format(
-      "{} settles {} than {} at {}: of {}, {}.{}",
-      choices.has_loop ? "Neither the recommended loop nor another carrier" : "No other carrier",
-      some_gain ? "two plants more" : "more plants", choices.drive, choices.here, choices.plants,
-      tally_text(choices.driven), choices.has_loop ? std::string() : fmt::format(" {}", no_loop));
-}
-
-/// Which of the advice about drive, loop and carrier is enough by itself.
-Advice choice_advice(const NaturalModeStudy& mode) {
-  const Choices found = choices_of(mode);
-  const auto is_enough = [&](const Tally& tally) { return tally.settled == found.plants; };
-  if (is_enough(found.driven)) {
-    return {"Choice",
-            all_with_drive(found, found.has_loop && mode.recommended_loop.means.sensorless)};
-  }
-  if (is_enough(found.looped)) {
-    return {"Choice", all_with_loop(found)};
-  }
-  if (is_enough(found.elsewhere)) {
-    return {"Choice", all_elsewhere(found)};
-  }
-  const std::size_t most = std::max(found.looped.settled, found.elsewhere.settled);
-  return {"Choice", most >= found.driven.settled + worth_a_change
-                        ? begin_with(found, found.looped.settled == most)
-                        : nothing_gained(found, most > found.driven.settled)};
 }
 
 output::Chart carrier_chart(const NaturalModeStudy& mode) {

@@ -237,11 +237,15 @@ class Board(Machine):
         assert max(a, b) <= half // 2, "the legs are high together"
         return math.sin(math.pi * (a - b) / half)
 
-    def driven(self):
-        """Whether a leg is ever high."""
+    def follows_carrier(self):
+        """Whether the pins of the legs are the carrier's, and it may drive them."""
         on = self.read(CARRIER + BREAK) & OUTPUTS_ON
         modes = self.registers[PORT_A]
-        return bool(on and modes >> 16 & 3 == 2 and self.written_amplitude() != 0)
+        return bool(on and modes >> 16 & 3 == 2)
+
+    def driven(self):
+        """Whether a leg is ever high."""
+        return self.follows_carrier() and self.written_amplitude() != 0
 
     def hear(self, content):
         """Bytes on the serial line to the image."""

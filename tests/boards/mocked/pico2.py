@@ -162,10 +162,14 @@ class Board(Machine):
         assert a <= half // 2, "the legs are high together"
         return math.sin(math.pi * a / half)
 
+    def follows_carrier(self):
+        """Whether the pins of the legs are the carrier's."""
+        legs = [self.registers.get(PINS + 8 * leg + 4, 0x1F) for leg in (LEG_A, LEG_B)]
+        return legs == [MODULATOR, MODULATOR]
+
     def driven(self):
         """Whether a leg is ever high."""
-        legs = [self.registers.get(PINS + 8 * leg + 4, 0x1F) for leg in (LEG_A, LEG_B)]
-        return legs == [MODULATOR, MODULATOR] and self.written_amplitude() != 0
+        return self.follows_carrier() and self.written_amplitude() != 0
 
     def hear(self, content):
         """Bytes on the serial line to the image."""
