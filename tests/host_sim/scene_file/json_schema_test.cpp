@@ -166,9 +166,7 @@ bool reader_accepts(const std::string& text, const std::vector<std::string>& ove
 /// Where tools/setup puts what editors judge a scene with, ajv and taplo; empty: nowhere.
 const fs::path node_modules = SONOGLIDE_NODE_MODULES;
 
-bool editors_are_here() {
-  return fs::exists(node_modules);
-}
+enum class Judge { python, editors };
 
 /// @param command  takes a file of cases
 void expect_agreement(const std::string& command, const fs::path& file) {
@@ -204,18 +202,17 @@ class Cases {
   }
 
   /// Has the schema judge all of them.
-  void check() const {
+  void check(Judge judge) const {
     ASSERT_FALSE(list_.empty());
     const fs::path file =
         fs::path(testing::TempDir()) / fmt::format("scene_cases_{}.json", getpid());
     std::ofstream(file) << ordered_json{{"schema", ordered_json::parse(json_schema())},
                                         {"cases", list_}};
-    expect_agreement(fmt::format("'{}' '{}'", SONOGLIDE_INTERPRETER, SONOGLIDE_SCHEMA_CHECK), file);
-    if (editors_are_here()) {
-      expect_agreement(
-          fmt::format("NODE_PATH='{}' node '{}'", node_modules.string(), SONOGLIDE_EDITORS_CHECK),
-          file);
-    }
+    expect_agreement(judge == Judge::editors
+                         ? fmt::format("NODE_PATH='{}' node '{}'", node_modules.string(),
+                                       SONOGLIDE_EDITORS_CHECK)
+                         : fmt::format("'{}' '{}'", SONOGLIDE_INTERPRETER, SONOGLIDE_SCHEMA_CHECK),
+                     file);
     fs::remove(file);
   }
 
@@ -223,12 +220,20 @@ class Cases {
   ordered_json list_ = ordered_json::array();
 };
 
-TEST(JsonSchemaTest, IsJudgedByWhatEditorsUse) {
-  if (!editors_are_here()) {
-    GTEST_SKIP()
-        << "Without npm, and under sanitizers, the schema is judged by python3-jsonschema alone.";
+/// By a library of Python's; by what editors use, where it is there.
+class JsonSchemaJudged : public testing::TestWithParam<Judge> {
+ protected:
+  void SetUp() override {
+    if (GetParam() == Judge::editors && !fs::exists(node_modules)) {
+      GTEST_SKIP() << "without npm, and under sanitizers";
+    }
   }
-}
+};
+
+INSTANTIATE_TEST_SUITE_P(Judges, JsonSchemaJudged, testing::Values(Judge::python, Judge::editors),
+                         [](const auto& judge) {
+                           return judge.param == Judge::editors ? "editors" : "python";
+                         });
 
 TEST(JsonSchemaTest, HasEveryKeyAndNoOther) {
   const ordered_json schema = ordered_json::parse(json_schema());
@@ -248,7 +253,7 @@ TEST(JsonSchemaTest, HasEveryKeyAndNoOther) {
   EXPECT_EQ(described, read);
 }
 
-TEST(JsonSchemaTest, AcceptsWhatTheReaderAccepts) {
+TEST_P(JsonSchemaJudged, AcceptsWhatTheReaderAccepts) {
   Cases cases;
   for (const char* folder : {SONOGLIDE_SCENES, SONOGLIDE_SCENE_CORPUS}) {
     int accepted = 0;
@@ -269,10 +274,10 @@ TEST(JsonSchemaTest, AcceptsWhatTheReaderAccepts) {
   for (const Scene& scene : whole_scenes()) {
     cases.add(scene.text, scene.json, true);
   }
-  cases.check();
+  cases.check(GetParam());
 }
 
-TEST(JsonSchemaTest, RefusesTheValuesThatTheReaderRefuses) {
+TEST_P(JsonSchemaJudged, RefusesTheValuesThatTheReaderRefuses) {
   Cases cases;
   const std::vector<Scene> scenes = whole_scenes();
   for (const KeyTable& table : key_tables()) {
@@ -286,10 +291,10 @@ TEST(JsonSchemaTest, RefusesTheValuesThatTheReaderRefuses) {
       }
     }
   }
-  cases.check();
+  cases.check(GetParam());
 }
 
-TEST(JsonSchemaTest, RefusesUnknownKeysAndTables) {
+TEST_P(JsonSchemaJudged, RefusesUnknownKeysAndTables) {
   Cases cases;
   const std::vector<Scene> scenes = whole_scenes();
   for (const KeyTable& table : key_tables()) {
@@ -297,11 +302,11 @@ TEST(JsonSchemaTest, RefusesUnknownKeysAndTables) {
   }
   EXPECT_FALSE(reader_accepts(scenes.back().text, {"no_such_table.key=1"}));
   cases.add("table", changed(scenes.back().json, "no_such_table", "key", "1"), false);
-  cases.check();
+  cases.check(GetParam());
 }
 
 /// Without one of these keys there is no scene.
-TEST(JsonSchemaTest, RefusesScenesWithoutARequiredKey) {
+TEST_P(JsonSchemaJudged, RefusesScenesWithoutARequiredKey) {
   Cases cases;
   int removed = 0;
   const Scene scene = whole_scenes().back();
@@ -321,7 +326,7 @@ TEST(JsonSchemaTest, RefusesScenesWithoutARequiredKey) {
     }
   }
   EXPECT_GE(removed, 5);
-  cases.check();
+  cases.check(GetParam());
 }
 
 }  // namespace
