@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/emulated/board_limits.hpp"
@@ -13,6 +12,7 @@
 #include "host_sim/emulated/image.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
+#include "host_sim/process/regular_expression.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 
 namespace sonoglide::emulated {
@@ -79,30 +79,28 @@ std::vector<UnitBoard> all_boards() {
 /// What an image says of the scene where it does not compile or link, and of which key.
 std::optional<configure::ConfigurationError> refusal(const std::string& words,
                                                      const UnitBoard& board) {
-  static const std::regex asserted("static assertion failed: ([^\n]*)");
-  static const std::regex key("[a-z]+\\.[a-z][A-Za-z_]*");
-  static const std::regex memory(
+  static const process::RegularExpression asserted("static assertion failed: ([^\n]*)");
+  static const process::RegularExpression key("[a-z]+\\.[a-z][A-Za-z_]*");
+  static const process::RegularExpression memory(
       "region `[^']*' overflowed by [0-9]+ bytes|less than [^\n]* for the stack");
-  std::smatch found;
-  if (std::regex_search(words, found, asserted)) {
-    const std::string message = found[1];
-    if (std::regex_search(message, found, key)) {
-      const std::string named = found.str() + ": ";
+  if (const process::Match told = asserted.search(words); !told.empty()) {
+    const std::string& message = told[1];
+    if (const process::Match found = key.search(message); !found.empty()) {
+      const std::string named = found[0] + ": ";
       const std::string reason =
           message.rfind(named, 0) == 0 ? message.substr(named.size()) : message;
-      const bool of_carrier = found.str() == "drive.frequency_Hz" && !board.carriers.empty();
+      const bool of_carrier = found[0] == "drive.frequency_Hz" && !board.carriers.empty();
       return configure::ConfigurationError(
-          found.str(),
-          fmt::format("{} ({}){}{}", reason, board.name, of_carrier ? "; allowed: " : "",
-                      of_carrier ? board.carriers : ""));
+          found[0], fmt::format("{} ({}){}{}", reason, board.name, of_carrier ? "; allowed: " : "",
+                                of_carrier ? board.carriers : ""));
     }
-  } else if (std::regex_search(words, found, memory)) {
+  } else if (const process::Match found = memory.search(words); !found.empty()) {
     return configure::ConfigurationError(
         "controller",
         fmt::format(
             "the unit is too large for the {}: {}; allowed: another controller.arithmetic, a "
             "scene with fewer parts, or another board",
-            board.name, found.str()));
+            board.name, found[0]));
   }
   return std::nullopt;
 }

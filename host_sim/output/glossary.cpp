@@ -4,10 +4,11 @@
 #include <cctype>
 #include <cstddef>
 #include <numeric>
-#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "host_sim/process/regular_expression.hpp"
 
 namespace sonoglide::output {
 namespace {
@@ -38,11 +39,10 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
 
 /// Markdown without emphasis, code marks and links.
 std::string plain(const std::string& markdown) {
-  static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
-  static const std::regex marks("[*`]");
-  static const std::regex line_end("\\s*\n\\s*");
-  return std::regex_replace(std::regex_replace(std::regex_replace(markdown, link, "$1"), marks, ""),
-                            line_end, " ");
+  static const process::RegularExpression link(R"(\[([^\]]*)\]\([^)]*\))");
+  static const process::RegularExpression marks("[*`]");
+  static const process::RegularExpression line_end("\\s*\n\\s*");
+  return line_end.replace(marks.replace(link.replace(markdown, "$1"), ""), " ");
 }
 
 std::string sentence(std::string text) {
@@ -53,16 +53,15 @@ std::string sentence(std::string text) {
 /// A row "| `Vt` | sliding velocity |", or a paragraph "**Term, other name** and so on: meaning".
 std::vector<Entry> entries_of(std::string_view document) {
   std::vector<Entry> entries;
-  static const std::regex row(R"(\| (`[^|]*`) \| ([^|]*) \|)");
-  static const std::regex term(R"(\*\*([^*]*)\*\*([^:]*): ([^]*))");
+  static const process::RegularExpression row(R"(\| (`[^|]*`) \| ([^|]*) \|)");
+  static const process::RegularExpression term(R"(\*\*([^*]*)\*\*([^:]*): ([^]*))");
   for (const std::string& paragraph : split(std::string(document), "\n\n")) {
-    std::smatch found;
-    if (std::regex_match(paragraph, found, term)) {
+    if (const process::Match found = term.match(paragraph); !found.empty()) {
       entries.push_back({split(found[1], ", "), sentence(plain(found[3])), false});
       continue;
     }
     for (const std::string& line : split(paragraph, "\n")) {
-      if (std::regex_match(line, found, row)) {
+      if (const process::Match found = row.match(line); !found.empty()) {
         entries.push_back({split(plain(found[1]), ", "), sentence(plain(found[2])), true});
       }
     }
@@ -215,10 +214,10 @@ void mark_terms(std::string text, std::vector<bool>& is_used) {
 }
 
 void mark_symbols(const std::string& text, std::vector<bool>& is_used) {
-  static const std::regex brackets(R"(\[[^\]\n]*\])");
-  static const std::regex units(R"([0-9]+ ?[A-Za-z][^\s,;:)]*)");
-  const std::string with_units = std::regex_replace(text, brackets, " ");
-  const std::string without = std::regex_replace(with_units, units, " ");
+  static const process::RegularExpression brackets(R"(\[[^\]\n]*\])");
+  static const process::RegularExpression units(R"([0-9]+ ?[A-Za-z][^\s,;:)]*)");
+  const std::string with_units = brackets.replace(text, " ");
+  const std::string without = units.replace(with_units, " ");
   for (const Name& name : names(true)) {
     const std::string& where = name.text.size() == 1 ? without : with_units;
     if (find_word(where, name.text, 0, false) != std::string::npos) {

@@ -7,7 +7,6 @@
 #include <array>
 #include <charconv>
 #include <iterator>
-#include <regex>
 #include <vector>
 
 #include "firmware/app/parameter_labels.hpp"
@@ -17,6 +16,7 @@
 #include "hal/reset_cause.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/process/regular_expression.hpp"
 
 namespace sonoglide::unit {
 
@@ -55,8 +55,8 @@ std::string decimal(std::uint32_t value, int places) {
 }
 
 bool is_number(const std::string& text) {
-  static const std::regex number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
-  return std::regex_match(text, number);
+  static const process::RegularExpression number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
+  return !number.match(text).empty();
 }
 
 double number_of(const std::string& text) {
@@ -116,7 +116,6 @@ std::string words_of(const link::Refusal& refusal, std::size_t parameter,
 }
 
 ReadValue read_value(const std::string& text, std::size_t parameter, const UnitScales& scales) {
-  static const std::regex trailing_zeros("\\.?0*$");
   if (!is_number(text)) {
     return {0, fmt::format("\"{}\" is no number", text)};
   }
@@ -129,8 +128,7 @@ ReadValue read_value(const std::string& text, std::size_t parameter, const UnitS
   const std::string digits = text.substr(negative ? 1 : 0);
   const std::size_t point = digits.find('.');
   const std::string fraction = point == std::string::npos ? "" : digits.substr(point);
-  if (std::regex_replace(fraction, trailing_zeros, "").size() >
-      static_cast<std::size_t>(places) + 1) {
+  if (fraction.find_last_not_of('0') + 1 > static_cast<std::size_t>(places) + 1) {
     return {0, places == 0 ? fmt::format("\"{}\" is no whole number", text)
                            : fmt::format("\"{}\" has more than {} decimal places", text, places)};
   }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 
 namespace sonoglide::identify {
@@ -105,25 +105,26 @@ std::optional<Unit> unit_of_text(std::string_view text) {
   // A power of ten or 1/, a word, and ^-1 or a power.
   static const std::string power =
       R"((?:[*xX] *)?([0-9.]+(?:[eE][+-]?[0-9]+)?(?:(?:\^|\*\*)[+-]?[0-9]+)?) *)";
-  static const std::regex form(
+  static const process::RegularExpression form(
       "(?:" + power + R"((?:[*xX] *)?|(1 */ *))?([A-Za-z%]+) *(?:(\^?-1)|)" + power + ")?");
   constexpr std::size_t longest = 60;
-  std::match_results<std::string_view::const_iterator> part;
   text = trimmed(text);
-  if (text.size() > longest || !std::regex_match(text.begin(), text.end(), part, form)) {
+  const process::Match part =
+      text.size() > longest ? process::Match() : form.match(std::string(text));
+  if (part.empty()) {
     return std::nullopt;
   }
-  const auto unit = unit_of_word(part[3].str());
-  const auto before = part[1].matched ? power_of_ten(part[1].str()) : 1.0;
-  const auto behind = part[5].matched ? power_of_ten(part[5].str()) : 1.0;
+  const auto unit = unit_of_word(part[3]);
+  const auto before = part[1].empty() ? 1.0 : power_of_ten(part[1]);
+  const auto behind = part[5].empty() ? 1.0 : power_of_ten(part[5]);
   if (!unit || !before || !behind) {
     return std::nullopt;
   }
-  if (!part[2].matched && !part[4].matched) {
+  if (part[2].empty() && part[4].empty()) {
     return Unit{unit->dimension, unit->scale * *before * *behind};
   }
-  const bool is_siemens = unit->dimension == Dimension::impedance && !part[1].matched &&
-                          part[2].matched != part[4].matched;
+  const bool is_siemens = unit->dimension == Dimension::impedance && part[1].empty() &&
+                          part[2].empty() != part[4].empty();
   return is_siemens ? std::optional(Unit{Dimension::admittance, 1.0 / unit->scale}) : std::nullopt;
 }
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 #include <string>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "scene_folder.hpp"
 #include "tests/acceptance/program/odd_names.hpp"
 #include "tests/acceptance/program/program.hpp"
@@ -111,7 +111,7 @@ TEST(UsageTest, ValuesOutOfAListNameTheList) {
 
 /// Both ends of each range that an option is refused with.
 TEST(UsageTest, WhatAMessageAllowsOfAnOptionIsAccepted) {
-  const std::regex range(
+  const process::RegularExpression range(
       R"(allowed: (?:a whole number, )?(-?[0-9][0-9.e+-]*) to ([0-9][0-9.e+-]*))");
   const ScratchFolder folder;
   int fed_back = 0;
@@ -129,11 +129,11 @@ TEST(UsageTest, WhatAMessageAllowsOfAnOptionIsAccepted) {
         return folder.run(line.append(" ").append(option).append(" ").append(value));
       };
       const Outcome refused = run_with("-1e300");
-      std::smatch ends;
-      if (refused.exit_code != 2 || !std::regex_search(refused.err, ends, range)) {
+      const process::Match ends = range.search(refused.err);
+      if (refused.exit_code != 2 || ends.empty()) {
         continue;
       }
-      for (const std::string& end : {ends[1].str(), ends[2].str()}) {
+      for (const std::string& end : {ends[1], ends[2]}) {
         const Outcome outcome = run_with(end);
         EXPECT_EQ(outcome.err.find(option + ":"), std::string::npos) << words << end << outcome.err;
         ++fed_back;

@@ -5,11 +5,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include "documents.hpp"
+#include "host_sim/process/regular_expression.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::documents_test {
@@ -99,11 +99,11 @@ TEST(Documents, EveryCommandHasAnExampleInItsManual) {
   const std::string help = folder.run("--help").out;
   const std::string commands = help.substr(help.find("Subcommands:"));
   const std::string examples = joined(lines_of(source / "tools/debian/examples.cmake"));
-  const std::regex command(R"(\n  ([a-z][a-z-]*))");
+  const process::RegularExpression command(R"(\n  ([a-z][a-z-]*))");
   int found = 0;
-  for (std::sregex_iterator each(commands.begin(), commands.end(), command), end; each != end;
-       ++each, ++found) {
-    const std::string name = (*each)[1];
+  for (const process::Match& each : command.search_all(commands)) {
+    ++found;
+    const std::string& name = each[1];
     EXPECT_NE(examples.find("set(examples_sonoglide-" + name), std::string::npos) << name;
   }
   EXPECT_GT(found, 10);
@@ -145,8 +145,8 @@ TEST(Documents, TheUsesShowWhatTheirCommandsPrint) {
 
 /// Commands of at most some seconds, in this folder; the others have tests of their own.
 bool is_quick(const std::string& commands) {
-  static const std::regex quick(R"(^sonoglide (run|ratio|design|configure) )");
-  return std::regex_search(commands, quick) && commands.find("cmake") == std::string::npos &&
+  static const process::RegularExpression quick(R"(^sonoglide (run|ratio|design|configure) )");
+  return !quick.search(commands).empty() && commands.find("cmake") == std::string::npos &&
          commands.find("$HOME") == std::string::npos;
 }
 

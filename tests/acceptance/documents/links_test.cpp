@@ -7,11 +7,11 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include "documents.hpp"
+#include "host_sim/process/regular_expression.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::links_test {
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 /// What a heading is called in a link: its words in small letters, joined by dashes.
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
-  for (const char c : std::regex_replace(heading, std::regex(R"(\]\([^)]*\))"), "")) {
+  for (const char c : process::RegularExpression(R"(\]\([^)]*\))").replace(heading, "")) {
     const auto letter = static_cast<unsigned char>(c);
     if (letter >= 0x80U || std::isalnum(letter) != 0 || c == '_' || c == '-') {
       anchor += static_cast<char>(std::tolower(letter));
@@ -52,13 +52,13 @@ struct Links {
 };
 
 Links links_in(const fs::path& root) {
-  const std::regex link(R"(\]\(([^)#\s]*)(#([^)\s]*))?\))");
+  const process::RegularExpression link(R"(\]\(([^)#\s]*)(#([^)\s]*))?\))");
   Links links;
   for (const fs::path& document : documents_in(root)) {
     const std::string text = joined(lines_of(document));
-    for (std::sregex_iterator each(text.begin(), text.end(), link), end; each != end; ++each) {
-      const std::string file = (*each)[1];
-      const std::string anchor = (*each)[3];
+    for (const process::Match& each : link.search_all(text)) {
+      const std::string& file = each[1];
+      const std::string& anchor = each[3];
       if (file.find("://") != std::string::npos || (file.empty() && anchor.empty())) {
         continue;
       }
@@ -66,7 +66,7 @@ Links links_in(const fs::path& root) {
       const fs::path target = file.empty() ? document : document.parent_path() / file;
       const bool alive = fs::exists(target) && (!fs::is_directory(target) || !fs::is_empty(target));
       if (!alive || (!anchor.empty() && !has_anchor(target, anchor))) {
-        links.dead.push_back(document.lexically_relative(root).string() + ": " + each->str());
+        links.dead.push_back(document.lexically_relative(root).string() + ": " + each[0]);
       }
     }
   }

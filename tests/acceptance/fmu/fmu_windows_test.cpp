@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -33,9 +32,8 @@ TEST(FmuWindowsLibrary, ShowsTheFunctionsOfTheHeadersAndNeedsWindowsAlone) {
   make_fmu(folder, SONOGLIDE_SCENES "/target_step.toml", "--kind loop", "fmu");
   const Outcome dump = folder.run_program("x86_64-w64-mingw32-objdump",
                                           "-p fmu/binaries/x86_64-windows/sonoglide_loop.dll");
-  EXPECT_EQ(matches_of_lines(dump.out, std::regex("\\s+\\[ *[0-9]+\\] (fmi.*)")),
-            header_functions());
-  EXPECT_EQ(matches_of_lines(dump.out, std::regex("\\s+DLL Name: (.*)")),
+  EXPECT_EQ(matches_of_lines(dump.out, "\\s+\\[ *[0-9]+\\] (fmi.*)"), header_functions());
+  EXPECT_EQ(matches_of_lines(dump.out, "\\s+DLL Name: (.*)"),
             (std::set<std::string>{"KERNEL32.dll", "msvcrt.dll"}));
 }
 

@@ -8,8 +8,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <stdexcept>
+
+#include "host_sim/process/regular_expression.hpp"
 
 extern char** environ;
 
@@ -107,14 +108,13 @@ Visit load(const fs::path& html, const std::string& script, const Screen& screen
 }
 
 std::string body_attribute(const std::string& dom, const std::string& name) {
-  std::smatch body;
-  if (!std::regex_search(dom, body, std::regex("<body[^>]*>"))) {
+  const process::Match body = process::RegularExpression("<body[^>]*>").search(dom);
+  if (body.empty()) {
     return "";
   }
-  const std::string tag = body.str();
-  std::smatch value;
-  const std::regex attribute("\\s" + name + "=\"([^\"]*)\"");
-  return std::regex_search(tag, value, attribute) ? value[1].str() : "";
+  const process::RegularExpression attribute("\\s" + name + "=\"([^\"]*)\"");
+  const process::Match found = attribute.search(body[0]);
+  return found.empty() ? "" : found[1];
 }
 
 }  // namespace sonoglide::browser

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
 
@@ -35,9 +35,9 @@ std::uint32_t word(const std::string& bytes, std::size_t at) {
 std::vector<long> numbers_of(const std::string& text, const std::string& begin) {
   const std::string line = text.substr(text.find(begin), text.find('\n', text.find(begin)));
   std::vector<long> found;
-  const std::regex number("[0-9]+");
-  for (std::sregex_iterator each(line.begin(), line.end(), number), end; each != end; ++each) {
-    found.push_back(std::stol(each->str()));
+  const process::RegularExpression number("[0-9]+");
+  for (const process::Match& each : number.search_all(line)) {
+    found.push_back(std::stol(each[0]));
   }
   return found;
 }

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <string>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
 
@@ -36,10 +36,10 @@ TEST(ImageOnPicoTest, TellsClocksOfTheUnit) {
   const Outcome outcome =
       folder.run("image '" SONOGLIDE_SCENES "/target_step_q31.toml' --board pico");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::regex line(
+  const process::RegularExpression line(
       "step: ([0-9]+) clocks in the median, ([0-9]+) at most, of 2200 in a carrier");
-  std::smatch clocks;
-  ASSERT_TRUE(std::regex_search(outcome.out, clocks, line)) << outcome.out;
+  const process::Match clocks = line.search(outcome.out);
+  ASSERT_FALSE(clocks.empty()) << outcome.out;
   EXPECT_GT(std::stoi(clocks[1]), 1000);
   EXPECT_LE(std::stoi(clocks[1]), std::stoi(clocks[2]));
   EXPECT_LT(std::stoi(clocks[2]), 2200);

@@ -4,8 +4,9 @@
 #include <cctype>
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
+
+#include "host_sim/process/regular_expression.hpp"
 
 namespace sonoglide::acceptance {
 namespace {
@@ -53,13 +54,14 @@ Texts labels_of(const std::string& html) {
 }
 
 std::set<std::string> explained_by(const std::string& html) {
+  static const process::RegularExpression apostrophe("&#39;");
   std::set<std::string> names;
   const std::size_t table = html.find("<h2>Words and symbols</h2>");
   for (const std::string& row :
        between(html.substr(std::min(table, html.size())), "<tr><td>", "</td>")) {
     for (std::size_t from = 0; from < row.size();) {
       const std::size_t end = std::min(row.find(", ", from), row.size());
-      names.insert(std::regex_replace(row.substr(from, end - from), std::regex("&#39;"), "'"));
+      names.insert(apostrophe.replace(row.substr(from, end - from), "'"));
       from = end + 2;
     }
   }
@@ -68,30 +70,31 @@ std::set<std::string> explained_by(const std::string& html) {
 
 /// Runs of letters, digits and primes; of other alphabets than ours Greek letters alone.
 Texts words_in(const std::string& label) {
-  static const std::regex word("P\\([a-z²]*\\)|(?:[A-Za-z0-9_']|[\xce\xcf][\x80-\xbf])+");
+  static const process::RegularExpression word(
+      "P\\([a-z²]*\\)|(?:[A-Za-z0-9_']|[\xce\xcf][\x80-\xbf])+");
   Texts words;
-  for (std::sregex_iterator each(label.begin(), label.end(), word); each != std::sregex_iterator();
-       ++each) {
-    words.push_back(each->str());
+  for (const process::Match& each : word.search_all(label)) {
+    words.push_back(each[0]);
   }
   return words;
 }
 
 bool is_symbol(const std::string& word) {
-  static const std::regex form("P\\(.*|[A-Za-z]'?|[A-Z][a-z0-9]|[\xce\xcf][\x80-\xbf][a-z0-9]?");
+  static const process::RegularExpression form(
+      "P\\(.*|[A-Za-z]'?|[A-Z][a-z0-9]|[\xce\xcf][\x80-\xbf][a-z0-9]?");
   static const std::set<std::string> short_words = {"A",  "a",  "An", "As", "At", "By", "In", "It",
                                                     "Of", "On", "Or", "To", "M0", "M3", "M7", "s"};
-  return std::regex_match(word, form) && short_words.count(word) == 0;
+  return !form.match(word).empty() && short_words.count(word) == 0;
 }
 
 }  // namespace
 
 std::vector<std::string> unexplained_symbols(const std::string& html) {
-  static const std::regex no_words(R"(\[[^\]]*\]|[0-9] ?[A-Za-z/]+|\([a-d]\))");
+  static const process::RegularExpression no_words(R"(\[[^\]]*\]|[0-9] ?[A-Za-z/]+|\([a-d]\))");
   const std::set<std::string> explained = explained_by(html);
   std::set<std::string> missing;
   for (const std::string& label : labels_of(html)) {
-    for (const std::string& word : words_in(std::regex_replace(label, no_words, " "))) {
+    for (const std::string& word : words_in(no_words.replace(label, " "))) {
       if (is_symbol(word) && explained.count(word) == 0) {
         missing.insert(word);
       }

@@ -7,13 +7,13 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "host_sim/emulated/unit_image.hpp"
+#include "host_sim/process/regular_expression.hpp"
 
 namespace sonoglide::emulated::board_list_test {
 namespace {
@@ -47,12 +47,12 @@ TEST(BoardList, EachBoardHasItsLineAmongTheBoardsAndEachLineItsFolder) {
   std::ifstream file(source_folder + "/tools/cmake/boards.cmake");
   const std::string lines{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   for (const EmulatedBoard& board : emulated_boards()) {
-    EXPECT_TRUE(std::regex_search(lines, std::regex("[( ]" + std::string(board.name) + "[ )\n]")))
-        << board.name;
+    const process::RegularExpression name("[( ]" + std::string(board.name) + "[ )\n]");
+    EXPECT_FALSE(name.search(lines).empty()) << board.name;
   }
-  const std::regex folder("FOLDER (hal/[a-z0-9_]+)");
-  for (std::sregex_iterator each(lines.begin(), lines.end(), folder), end; each != end; ++each) {
-    EXPECT_TRUE(std::filesystem::is_directory(source_folder + "/" + each->str(1))) << each->str(1);
+  const process::RegularExpression folder("FOLDER (hal/[a-z0-9_]+)");
+  for (const process::Match& each : folder.search_all(lines)) {
+    EXPECT_TRUE(std::filesystem::is_directory(source_folder + "/" + each[1])) << each[1];
   }
 }
 

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 
 #include "compiled.hpp"
+#include "host_sim/process/regular_expression.hpp"
 
 namespace sonoglide::emulated::stack_bound_test {
 namespace {
@@ -49,12 +49,11 @@ TEST(Veneer, LeadsToItsFunction) {
 // Of one function, which the veneer calls by its second name.
 TEST(Veneer, LeadsToAConstructorByEitherOfItsNames) {
   const auto code = [](const char* called, const char* there) {
-    return std::regex_replace(
-               std::string(
-                   "08000000 <reset>:\n 8000000:\tf000 f805 \tbl\t8000010 <__CALLED_veneer>\n\n"
-                   "08000010 <__CALLED_veneer>:\n 8000010:\tf85f f000 \tldr.w\tpc, [pc]\n"
-                   " 8000014:\t10000001 \t.word\t0x10000001\n\n"),
-               std::regex("CALLED"), called) +
+    return process::RegularExpression("CALLED").replace(
+               "08000000 <reset>:\n 8000000:\tf000 f805 \tbl\t8000010 <__CALLED_veneer>\n\n"
+               "08000010 <__CALLED_veneer>:\n 8000010:\tf85f f000 \tldr.w\tpc, [pc]\n"
+               " 8000014:\t10000001 \t.word\t0x10000001\n\n",
+               called) +
            "10000000 <" + there +
            ">:\n10000000:\tb500      \tpush\t{lr}\n10000002:\tbd00      \tpop\t{pc}\n";
   };

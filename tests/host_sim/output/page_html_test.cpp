@@ -3,13 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "host_sim/output/page.hpp"
 #include "host_sim/output/program.hpp"
+#include "host_sim/process/regular_expression.hpp"
 #include "tests/common/constants/pi.hpp"
 
 namespace sonoglide::output::page_html_test {
@@ -194,8 +194,10 @@ TEST(PageHtml, LoadsNothingFromOutside) {
   EXPECT_NE(html.find("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
                       "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"),
             std::string::npos);
-  EXPECT_FALSE(std::regex_search(html, std::regex("(src|href|action)\\s*=\\s*[\"']?(https?:)?//")));
-  EXPECT_FALSE(std::regex_search(html, std::regex("url\\(\\s*[\"']?(?!data:)[a-z/]")));
+  const process::RegularExpression link("(src|href|action)\\s*=\\s*[\"']?(https?:)?//");
+  EXPECT_TRUE(link.search(html).empty());
+  const process::RegularExpression url("url\\(\\s*[\"']?(?!data:)[a-z/]");
+  EXPECT_TRUE(url.search(html).empty());
   for (const char* loader : {"@import", "sourceMappingURL", "<iframe", "<object", "<script src"}) {
     EXPECT_EQ(html.find(loader), std::string::npos) << loader;
   }

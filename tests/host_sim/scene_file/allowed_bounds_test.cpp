@@ -1,4 +1,5 @@
 #include "host_sim/configure/read/experiment.hpp"
+#include "host_sim/process/regular_expression.hpp"
 #include "host_sim/scene/bound.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include <iterator>
 #include <limits>
 #include <random>
-#include <regex>
 #include <string>
 #include <variant>
 #include <vector>
@@ -71,24 +71,24 @@ Refusal refusal_of(const scene_file::Source& source, const std::vector<std::stri
 
 /// The numbers that a message allows of a key, each once above, once below what it may not reach.
 std::vector<double> allowed_in(const std::string& message) {
-  static const std::regex lower(R"((at least|above) (-?[0-9.]+(e[-+]?[0-9]+)?))");
-  static const std::regex upper(R"((at most|below|less than) (-?[0-9.]+(e[-+]?[0-9]+)?))");
-  static const std::regex range(
+  static const process::RegularExpression lower(R"((at least|above) (-?[0-9.]+(e[-+]?[0-9]+)?))");
+  static const process::RegularExpression upper(
+      R"((at most|below|less than) (-?[0-9.]+(e[-+]?[0-9]+)?))");
+  static const process::RegularExpression range(
       R"((-?[0-9.]+(?:e[-+]?[0-9]+)?) to (below )?(-?[0-9.]+(?:e[-+]?[0-9]+)?))");
   constexpr double beside = 1e-9;
   constexpr double least = 1e-30;  // where above 0 is allowed
   const std::string allowed = message.substr(message.find("allowed: "));
   std::vector<double> values;
-  std::smatch found;
-  if (std::regex_search(allowed, found, range)) {
+  if (const process::Match found = range.search(allowed); !found.empty()) {
     values.push_back(read(found[1]));
-    values.push_back(read(found[3]) * (found[2].length() > 0 ? 1.0 - beside : 1.0));
+    values.push_back(read(found[3]) * (!found[2].empty() ? 1.0 - beside : 1.0));
   }
-  if (std::regex_search(allowed, found, lower)) {
+  if (const process::Match found = lower.search(allowed); !found.empty()) {
     values.push_back(read(found[2]) * (found[1] == "above" ? 1.0 + beside : 1.0) +
                      (found[1] == "above" && read(found[2]) == 0.0 ? least : 0.0));
   }
-  if (std::regex_search(allowed, found, upper)) {
+  if (const process::Match found = upper.search(allowed); !found.empty()) {
     values.push_back(read(found[2]) * (found[1] == "at most" ? 1.0 : 1.0 - beside));
   }
   return values;

@@ -1,5 +1,6 @@
 /// A person at the host program and a unit at the other end of a serial device.
 #include "host_sim/unit/console.hpp"
+#include "host_sim/process/regular_expression.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +18,6 @@
 #include <iterator>
 #include <optional>
 #include <random>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -310,11 +310,11 @@ TEST_F(ConsoleTest, StreamsTheChosenChannelsAsATable) {
     rows.insert(rows.end(), more.begin(), more.end());
     ask("status");
   }
-  std::regex pattern("([0-9]+),([0-9]+),0,off,none,none,pending");
+  const process::RegularExpression pattern("([0-9]+),([0-9]+),0,off,none,none,pending");
   long last = -1;
   for (const std::string& row : rows) {
-    std::smatch found;
-    ASSERT_TRUE(std::regex_match(row, found, pattern)) << row;
+    const process::Match found = pattern.match(row);
+    ASSERT_FALSE(found.empty()) << row;
     EXPECT_GT(std::stol(found[1]), last);
     last = std::stol(found[1]);
   }
@@ -389,10 +389,12 @@ class TraceConsole : public ConsoleTest {
     for (int i = 0; i < 1000 && state.find("trace of") != 0; ++i) {
       state = line_of("trace");
     }
-    std::smatch found;
-    const std::regex pattern(
+    const process::RegularExpression pattern(
         "trace of 200 steps from period ([0-9]+), triggered by ([a-z]+) in period ([0-9]+)");
-    EXPECT_TRUE(std::regex_match(state, found, pattern)) << state;
+    const process::Match found = pattern.match(state);
+    if (found.empty()) {
+      throw std::runtime_error(state);
+    }
     first_ = std::stoul(found[1]);
     cause_ = found[2];
     trigger_ = std::stoul(found[3]) - first_;
@@ -462,10 +464,10 @@ TEST_F(TraceConsole, MeasuresAStepAndSavesItsPage) {
       Console(link_, "the samples are of a dummy").carry_out("step 0.4 0.7 \"" + page + '"');
   EXPECT_EQ(lines.back(), "the samples are of a dummy");
   const std::string& told = lines.front();
-  std::smatch found;
-  ASSERT_TRUE(std::regex_search(
-      told, found, std::regex("^the friction force goes from ([0-9.]+) mN to ([0-9.]+) mN")))
-      << told;
+  const process::Match found =
+      process::RegularExpression("^the friction force goes from ([0-9.]+) mN to ([0-9.]+) mN")
+          .search(told);
+  ASSERT_FALSE(found.empty()) << told;
   constexpr double undriven_mN = 40.0 * app::TimedBoard::friction;
   EXPECT_NEAR(std::stod(found[1]), 0.4 * undriven_mN, 0.02 * undriven_mN);
   EXPECT_NEAR(std::stod(found[2]), 0.7 * undriven_mN, 0.02 * undriven_mN);
@@ -536,9 +538,9 @@ TEST_F(ForceConsole, StreamsAndHoldsAForceInNewtons) {
     rows = console_.take_rows();
     ask("status");
   }
-  std::smatch found;
-  const std::regex pattern("[0-9]+,[0-9]+,([0-9.e-]+),0\\.012");
-  ASSERT_TRUE(std::regex_match(rows.back(), found, pattern)) << rows.back();
+  const process::RegularExpression pattern("[0-9]+,[0-9]+,([0-9.e-]+),0\\.012");
+  const process::Match found = pattern.match(rows.back());
+  ASSERT_FALSE(found.empty()) << rows.back();
   EXPECT_NEAR(std::stod(found[1]), 0.012, 1e-4);
 }
 
@@ -653,16 +655,17 @@ using LiftedConsole = ConsoleOf<RatioDesign, LiftedBoard>;
 // The unit shows what its present offset and gain make of the reading, to 2.5e-5 of full scale.
 TEST_F(LiftedConsole, ATareSavesTheOffsetThatTheSensorHas) {
   constexpr double error_N = 2.5e-5 * 0.04;
-  const std::regex tared("force_offset was (.+) N, is (.+) N, standard error 0 N; saved");
+  const process::RegularExpression tared(
+      "force_offset was (.+) N, is (.+) N, standard error 0 N; saved");
   ask("set force_gain 0.9");
   ask("set force_offset -0.002");
   double before_N = -0.002;
   for (const double offset : {0.03, 0.03, -0.2}) {
     served_.board().offset = offset;
     const Lines lines = ask("tare");
-    std::smatch found;
     ASSERT_EQ(lines.size(), 2U) << lines.front();
-    ASSERT_TRUE(std::regex_match(lines.front(), found, tared)) << lines.front();
+    const process::Match found = tared.match(lines.front());
+    ASSERT_FALSE(found.empty()) << lines.front();
     EXPECT_EQ(lines.back(),
               "every one of 256 readings was the same: a sensor without noise, or one that is "
               "stuck; check that a force changes it: stream friction_force");
@@ -670,7 +673,7 @@ TEST_F(LiftedConsole, ATareSavesTheOffsetThatTheSensorHas) {
     before_N = std::stod(found[2]);
     EXPECT_NEAR(before_N, 0.04 * offset, error_N);
     EXPECT_EQ(line_of("params force_offset"),
-              "force_offset " + found[2].str() + " N, compiled in 0 N; allowed is -0.01 to 0.01 N");
+              "force_offset " + found[2] + " N, compiled in 0 N; allowed is -0.01 to 0.01 N");
   }
   EXPECT_EQ(console_.refused(), 0U);
 }
@@ -681,11 +684,11 @@ TEST_F(LiftedConsole, ATareNeedsASteadyForce) {
   const Lines told = ask("tare");
   EXPECT_EQ(told.size(), 1U);  // nothing is to be said of readings that show noise
   const std::string& saved = told.front();
-  std::smatch found;
-  ASSERT_TRUE(std::regex_match(
-      saved, found,
-      std::regex("force_offset was 0 N, is ([0-9.]+) N, standard error ([0-9.]+) ([un])N; saved")))
-      << saved;
+  const process::Match found =
+      process::RegularExpression(
+          "force_offset was 0 N, is ([0-9.]+) N, standard error ([0-9.]+) ([un])N; saved")
+          .match(saved);
+  ASSERT_FALSE(found.empty()) << saved;
   EXPECT_NEAR(std::stod(found[1]), 0.0012, 1e-5);
   // 1.44 uN. Its estimate of 15 degrees of freedom is within 0.3 to 2.2 of it but for one in a million.
   const double standard_error_N = std::stod(found[2]) * (found[3] == "u" ? 1e-6 : 1e-9);
@@ -694,10 +697,10 @@ TEST_F(LiftedConsole, ATareNeedsASteadyForce) {
   const std::string before = line_of("params force_offset");
   served_.board().noise = 0.2;
   const std::string refused = line_of("tare");
-  EXPECT_TRUE(std::regex_match(
-      refused, std::regex("the force is not steady: the standard error of its mean is [0-9.]+ uN; "
-                          "allowed is up to 20 uN, 0.1 % of friction_force")))
-      << refused;
+  const process::RegularExpression unsteady(
+      "the force is not steady: the standard error of its mean is [0-9.]+ uN; "
+      "allowed is up to 20 uN, 0.1 % of friction_force");
+  EXPECT_FALSE(unsteady.match(refused).empty()) << refused;
   EXPECT_EQ(line_of("params force_offset"), before);
   EXPECT_EQ(console_.refused(), 1U);
 }

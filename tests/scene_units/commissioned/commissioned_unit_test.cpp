@@ -3,12 +3,12 @@
 #include <sys/wait.h>
 
 #include <csignal>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "stand.hpp"
 #include "tests/acceptance/program/program.hpp"
 #include "tests/acceptance/program/started_program.hpp"
@@ -66,11 +66,11 @@ TEST(CommissionedUnit, AStepOfItsLoopIsMeasured) {
   folder.write("lines", "restart\nstep 0.4 0.7 step.html\n");
   const acceptance::Outcome run = folder.run("connect " + stand.device() + " --quiet < lines");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
-  std::smatch found;
-  const std::regex pattern(
+  const process::RegularExpression pattern(
       "the friction force goes from ([0-9.]+) mN to ([0-9.]+) mN, ripple .*; 10 to 90 % in ([0-9.]+) us, within 5 % of "
       "the step after ([0-9.]+) (us|ms), overshoot");
-  ASSERT_TRUE(std::regex_search(run.out, found, pattern)) << run.out;
+  const process::Match found = pattern.search(run.out);
+  ASSERT_FALSE(found.empty()) << run.out;
   constexpr double undriven_mN = 39.24 * 0.5;
   EXPECT_NEAR(std::stod(found[1]), 0.4 * undriven_mN, 0.02 * undriven_mN) << run.out;
   EXPECT_NEAR(std::stod(found[2]), 0.7 * undriven_mN, 0.02 * undriven_mN) << run.out;

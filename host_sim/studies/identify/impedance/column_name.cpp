@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <regex>
 #include <utility>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/identify/unit.hpp"
 
@@ -48,24 +48,26 @@ constexpr std::pair<std::string_view, Meaning> vocabulary[] = {
 /// A name in its usual spelling, in this order.
 std::string rewritten(std::string name) {
   struct Rewriting {
-    std::regex form;
+    process::RegularExpression form;
     const char* as;
   };
   static const Rewriting rewritings[] = {
       // Of a Bode 100, ZPlot and HFSS: Trace 1:, Z'(a), Z''(b), Z(1,1).
-      {std::regex(R"(Trace [0-9]:|\(1,1\)|('+)\([ab]\))"), "$1"},
-      {std::regex("(^|[^A-Za-z0-9])[Ss]_*(?=[0-9])"), "$1gain "},  // S11
-      {std::regex("([a-z]{2})(?=[A-Z])"), "$1 "},                  // PhaseDeg
+      {process::RegularExpression(R"(Trace [0-9]:|\(1,1\)|('+)\([ab]\))"), "$1"},
+      {process::RegularExpression("(^|[^A-Za-z0-9])[Ss]_*(?=[0-9])"), "$1gain "},  // S11
+      {process::RegularExpression("([a-z]{2})(?=[A-Z])"), "$1 "},                  // PhaseDeg
       // k Ohm, kilo-ohm; other prefixes only where nothing else is meant.
-      {std::regex("((?:^|[^A-Za-z])(?:[kMun]|[Kk]ilo?|[Mm]ega?|[Mm]illi|[Mm]icro?|[Gg]iga|[Nn]ano)"
-                  R"(|[(\[{<] *[pmKGT])[-_ ](?=(?:[Oo]hms?|OHMS?|Hz|HZ|[Hh]ertz)"
-                  "|S|[Ss]iemens|[Mm]hos?)(?![A-Za-z]))"),
+      {process::RegularExpression(
+           "((?:^|[^A-Za-z])(?:[kMun]|[Kk]ilo?|[Mm]ega?|[Mm]illi|[Mm]icro?|[Gg]iga|[Nn]ano)"
+           R"(|[(\[{<] *[pmKGT])[-_ ](?=(?:[Oo]hms?|OHMS?|Hz|HZ|[Hh]ertz)"
+           "|S|[Ss]iemens|[Mm]hos?)(?![A-Za-z]))"),
        "$1"},
-      {std::regex(R"(^ *[Pp](?=[ _]*[(\[{</,]? *-? *(?:m?rad|[Dd]eg|DEG|RAD)))"), "phase"},
-      {std::regex(R"(^([ (]*)-)"), "$1minus "},
-      {std::regex(R"(([(\[{<]) *-(?! *[-)\]}>]))"), " minus $1"}};
+      {process::RegularExpression(R"(^ *[Pp](?=[ _]*[(\[{</,]? *-? *(?:m?rad|[Dd]eg|DEG|RAD)))"),
+       "phase"},
+      {process::RegularExpression(R"(^([ (]*)-)"), "$1minus "},
+      {process::RegularExpression(R"(([(\[{<]) *-(?! *[-)\]}>]))"), " minus $1"}};
   for (const Rewriting& each : rewritings) {
-    name = std::regex_replace(name, each.form, each.as);
+    name = each.form.replace(name, each.as);
   }
   return name;
 }
@@ -124,11 +126,8 @@ class Reader {
 
   /// Letters and digits, a bar or quotes; else all up to a blank.
   void take_word() {
-    static const std::regex form("[A-Za-z%][A-Za-z0-9]*|''|'|\\||[^ ]+");
-    const std::string_view left = std::string_view(text_).substr(at_);
-    std::cmatch found;
-    std::regex_search(left.begin(), left.end(), found, form);
-    const std::string word = found.str();
+    static const process::RegularExpression form("[A-Za-z%][A-Za-z0-9]*|''|'|\\||[^ ]+");
+    const std::string word = form.search(text_.substr(at_)).at(0);
     at_ += word.size();
     const std::string small = lower_case(word);
     const auto unit = unit_of_word(word);

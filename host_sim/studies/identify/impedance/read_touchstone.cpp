@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <regex>
 
+#include "host_sim/process/regular_expression.hpp"
 #include "host_sim/studies/identify/impedance/sweep_columns.hpp"
 #include "host_sim/studies/identify/text_file.hpp"
 #include "host_sim/studies/identify/unit.hpp"
@@ -31,18 +31,19 @@ std::optional<Options> options_of(std::string_view line) {
     return std::nullopt;
   }
   // A word, or R50, R 50 Ohm, R 0,05 kOhm.
-  static const std::regex option(
-      "[ ,;]*(?:r *([0-9](?:[0-9.,e+-]*[0-9.])?),? *([a-z]*ohms?)?|([a-z]+))(?=[ ,;]|$)[ ,;]*");
+  static const process::RegularExpression option(
+      "^[ ,;]*(?:r *([0-9](?:[0-9.,e+-]*[0-9.])?),? *([a-z]*ohms?)?|([a-z]+))(?=[ ,;]|$)[ ,;]*");
   Options options;
   std::string left = lower_case(trimmed(plain_text(line.substr(1))));
-  for (std::smatch found; !left.empty(); left = found.suffix().str()) {
-    if (!std::regex_search(left, found, option, std::regex_constants::match_continuous)) {
+  for (process::Match found; !left.empty(); left.erase(0, found[0].size())) {
+    found = option.search(left);
+    if (found.empty()) {
       return std::nullopt;
     }
-    const std::string word = found.str(3);
-    const auto unit = unit_of_word(found[2].matched ? found.str(2) : word.empty() ? "ohm" : word);
+    const std::string word = found[3];
+    const auto unit = unit_of_word(!found[2].empty() ? found[2] : word.empty() ? "ohm" : word);
     if (word.empty()) {
-      options.reference_ohm = number_of(found.str(1)).value_or(0.0) * (unit ? unit->scale : 0.0);
+      options.reference_ohm = number_of(found[1]).value_or(0.0) * (unit ? unit->scale : 0.0);
     } else if (unit && unit->dimension == Dimension::frequency) {
       options.frequency_scale = unit->scale;
     } else if (is_among(word, " s y z g h ")) {

@@ -3,6 +3,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "host_sim/process/regular_expression.hpp"
+
 namespace sonoglide::acceptance {
 namespace {
 
@@ -45,12 +47,12 @@ std::set<std::string> header_functions() {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-std::set<std::string> matches_of_lines(const std::string& listing, const std::regex& line) {
+std::set<std::string> matches_of_lines(const std::string& listing, const std::string& line) {
   std::set<std::string> matches;
   std::istringstream lines(listing);
-  std::smatch found;
+  const process::RegularExpression expression(line);
   for (std::string text; std::getline(lines, text);) {
-    if (std::regex_match(text, found, line)) {
+    if (const process::Match found = expression.match(text); !found.empty()) {
       matches.insert(found[1]);
     }
   }
