@@ -49,7 +49,7 @@ constexpr std::pair<std::string_view, Meaning> vocabulary[] = {
 std::string rewritten(std::string name) {
   struct Rewriting {
     process::RegularExpression form;
-    const char* as;
+    const char* as = nullptr;
   };
   static const Rewriting rewritings[] = {
       // Of a Bode 100, ZPlot and HFSS: Trace 1:, Z'(a), Z''(b), Z(1,1).
