@@ -24,7 +24,7 @@ class RegularExpression {
   Match search(const std::string& text) const;
   /// All places of a text, from left to right. They do not overlap.
   std::vector<Match> search_all(const std::string& text) const;
-  /// The text with the other one in all those places, in which $1 is the first group.
+  /// The text with `by` in place of each of them; in `by` $1 is the first group.
   std::string replace(const std::string& text, const std::string& by) const;
 
  private:
