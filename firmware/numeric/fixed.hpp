@@ -183,11 +183,10 @@ class Fixed {
   friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw_ > b.raw_; }
   friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw_ >= b.raw_; }
 
-  /// a * b as a raw value, rounded but not yet brought into range.
+  /// a * b as a raw value, rounded but not yet brought into range; in Q31 a and b are not both -1.
   static constexpr Wide rounded_product(Fixed a, Fixed b) {
-    if constexpr (is_q31 && !has_wide_product) {
-      return a == b && a == lowest() ? Wide{1} << FractionBits
-                                     : Wide{rounded_q31_product_of_halves(a.raw_, b.raw_)};
+    if constexpr (is_q31) {
+      return rounded_q31_product(a.raw_, b.raw_);
     } else {
       return shift_right_rounded<Wide>(Wide{a.raw_} * Wide{b.raw_}, FractionBits);
     }
@@ -262,6 +261,7 @@ constexpr Number fixed_dot(const std::array<Number, N>& a, const std::array<Numb
 }  // namespace detail
 
 /// Sum of a[i] * b[i]. Each product is rounded as by operator*; only the sum is brought into range.
+/// In Q31 a[i] and b[i] are not both -1.
 template <class Storage, int FractionBits, class Overflow, std::size_t N>
 constexpr Fixed<Storage, FractionBits, Overflow> dot(
     const std::array<Fixed<Storage, FractionBits, Overflow>, N>& a,

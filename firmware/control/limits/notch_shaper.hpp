@@ -12,20 +12,88 @@
 
 namespace sonoglide::control {
 
+/// What a notch keeps of the last Delays * M periods, M up to MaxSpacing.
+template <class Entry, std::uint32_t MaxSpacing, std::uint32_t Delays>
+class DelayLine {
+ public:
+  using Past = std::array<Entry, Delays>;
+
+  void restart() {
+    for (Entry& entry : entries_) {
+      entry = {};
+    }
+    oldest_ = 0;
+  }
+
+  /// Entries of M, 2M, ... periods ago.
+  Past past(std::uint32_t spacing) const {
+    return past(spacing, std::make_index_sequence<Delays>{});
+  }
+
+  /// In place of the oldest one.
+  void push(const Entry& entry, std::uint32_t spacing) {
+    entries_[oldest_] = entry;
+    oldest_ = oldest_ + 1 < Delays * spacing ? oldest_ + 1 : 0;
+  }
+
+ private:
+  template <std::size_t... I>
+  Past past(std::uint32_t spacing, std::index_sequence<I...> /*delays*/) const {
+    const std::uint32_t depth = Delays * spacing;
+    const std::array<std::uint32_t, Delays> ahead{
+        oldest_ + static_cast<std::uint32_t>(Delays - 1 - I) * spacing...};
+    return {entries_[I + 1 == Delays || ahead[I] < depth ? ahead[I] : ahead[I] - depth]...};
+  }
+
+  // No std::array: with it a compiler forgets the parameters at each store to a place that varies.
+  Entry entries_[std::size_t{Delays} * MaxSpacing]{};
+  std::uint32_t oldest_ = 0;
+};
+
+/// The same where M is 1: the entries move, which is quicker than to look for them.
+template <class Entry, std::uint32_t Delays>
+class DelayLine<Entry, 1, Delays> {
+ public:
+  using Past = std::array<Entry, Delays>;
+
+  void restart() { past_ = {}; }
+  const Past& past(std::uint32_t /*spacing*/) const { return past_; }
+  void push(const Entry& entry, std::uint32_t /*spacing*/) {
+    for (std::size_t i = Delays - 1; i > 0; --i) {
+      past_[i] = past_[i - 1];
+    }
+    past_[0] = entry;
+  }
+
+ private:
+  Past past_{};
+};
+
 /// Rounds the notch's sum to the scalar, as the arithmetic does. That is far too little to be seen in the
 /// natural mode.
-///
-/// @tparam Depth  places of the delay line
-template <class Scalar, std::size_t Depth, std::size_t TapCount>
+template <class Scalar, std::size_t TapCount>
 class NotchRounding {
  public:
   using Taps = std::array<Scalar, TapCount>;
+  struct Entry {
+    Scalar amplitude{};
+  };
+  using Past = std::array<Entry, TapCount - 1>;
 
   explicit NotchRounding(const Taps&) {}
-  void restart() {}
-  Scalar sum(const Taps& taps, const Taps& inputs,
-             const std::array<std::uint32_t, TapCount - 1>& /*places*/) {
-    return numeric::dot(taps, inputs);
+
+  /// @param taps  h0, h1, …
+  /// @param now   what h0 takes
+  /// @param past  what the others take
+  static Scalar sum(const Taps& taps, const Entry& now, const Past& past) {
+    return sum(taps, now, past, std::make_index_sequence<TapCount - 1>{});
+  }
+
+ private:
+  template <std::size_t... I>
+  static Scalar sum(const Taps& taps, const Entry& now, const Past& past,
+                    std::index_sequence<I...> /*delays*/) {
+    return numeric::dot(taps, Taps{now.amplitude, past[I].amplitude...});
   }
 };
 
@@ -37,24 +105,24 @@ class NotchRounding {
 /// amplitude that is finer than 16 bits.
 ///
 /// Inputs in [0, 1), and taps whose magnitudes add up to at most 2.9: the sum then fits 32 bits.
-template <class Overflow, std::size_t Depth, std::size_t TapCount>
-class NotchRounding<numeric::Q15<Overflow>, Depth, TapCount> {
+template <class Overflow, std::size_t TapCount>
+class NotchRounding<numeric::Q15<Overflow>, TapCount> {
  public:
   using Scalar = numeric::Q15<Overflow>;
   using Taps = std::array<Scalar, TapCount>;
-  using Places = std::array<std::uint32_t, TapCount - 1>;
+  struct Entry {
+    Scalar amplitude{};
+    std::int16_t error = 0;  ///< in 2^-30
+  };
+  using Past = std::array<Entry, TapCount - 1>;
 
   explicit NotchRounding(const Taps& taps) : NotchRounding(taps, Delays{}) {}
 
-  void restart() { errors_ = {}; }
-
-  /// @param taps    h0, h1, …
-  /// @param inputs  what each tap takes
-  /// @param places  in the delay line, of what is M, 2M, ... periods old; the last is the oldest
-  Scalar sum(const Taps& taps, const Taps& inputs, const Places& places) {
-    const std::int32_t exact = exact_sum(taps, inputs, places, Delays{});
+  /// As above; the error becomes that of `now`.
+  Scalar sum(const Taps& taps, Entry& now, const Past& past) const {
+    const std::int32_t exact = exact_sum(taps, now, past, Delays{});
     const std::int32_t rounded = numeric::shift_right_rounded(exact, Scalar::fraction_bits);
-    errors_[places.back()] = static_cast<std::int16_t>(rounded * unit - exact);
+    now.error = static_cast<std::int16_t>(rounded * unit - exact);
     return Scalar::from_wide(rounded);
   }
 
@@ -71,11 +139,12 @@ class NotchRounding<numeric::Q15<Overflow>, Depth, TapCount> {
       : echoes_{echo(taps[I + 1], taps[0])...} {}
 
   template <std::size_t... I>
-  std::int32_t exact_sum(const Taps& taps, const Taps& inputs, const Places& places,
+  std::int32_t exact_sum(const Taps& taps, const Entry& now, const Past& past,
                          std::index_sequence<I...> /*delays*/) const {
     const std::int32_t echoes =
-        numeric::shift_right_rounded((... + (echoes_[I] * errors_[places[I]])), echo_bits);
-    return (product(taps[0], inputs[0]) + ... + product(taps[I + 1], inputs[I + 1])) + echoes;
+        numeric::shift_right_rounded((... + (echoes_[I] * past[I].error)), echo_bits);
+    return (product(taps[0], now.amplitude) + ... + product(taps[I + 1], past[I].amplitude)) +
+           echoes;
   }
 
   static std::int32_t echo(Scalar tap, Scalar first) {
@@ -84,7 +153,6 @@ class NotchRounding<numeric::Q15<Overflow>, Depth, TapCount> {
   static std::int32_t product(Scalar a, Scalar b) { return std::int32_t{a.raw()} * b.raw(); }
 
   std::array<std::int32_t, TapCount - 1> echoes_;  ///< h1/h0, h2/h0, ...
-  std::array<std::int16_t, Depth> errors_{};       ///< in 2^-30
 };
 
 /// No command shaping: for plants without a natural mode, and to show the effect of the notch.
@@ -135,45 +203,22 @@ class NotchShaper {
   explicit NotchShaper(const Parameters& parameters)
       : parameters_(parameters), rounding_(parameters.taps) {}
 
-  void restart() {
-    for (Scalar& past : past_) {
-      past = {};
-    }
-    rounding_.restart();
-    oldest_ = 0;
-  }
+  void restart() { line_.restart(); }
 
   /// Shaped amplitude; may leave [0, 1] where the input varies within (TapCount − 1) M periods.
-  Scalar shape(Scalar amplitude) { return shape(amplitude, std::make_index_sequence<delays>{}); }
-
- private:
-  static constexpr std::uint32_t delays = TapCount - 1;
-  static constexpr std::size_t length = std::size_t{delays} * MaxSpacing;
-
-  /// A constant where the delay line leaves no choice.
-  std::uint32_t spacing() const { return MaxSpacing == 1 ? 1 : parameters_.spacing; }
-
-  template <std::size_t... I>
-  Scalar shape(Scalar amplitude, std::index_sequence<I...> /*delays*/) {
-    const std::uint32_t depth = delays * spacing();
-    const std::uint32_t oldest = oldest_;
-    // Where the delay line holds what is M, 2M, ... periods old.
-    const std::array<std::uint32_t, delays> ahead{
-        oldest + static_cast<std::uint32_t>(delays - 1 - I) * spacing()...};
-    const std::array<std::uint32_t, delays> places{
-        (I + 1 == delays || ahead[I] < depth ? ahead[I] : ahead[I] - depth)...};
-    const std::array<Scalar, TapCount> inputs{amplitude, past_[places[I]]...};
-    const Scalar shaped = rounding_.sum(parameters_.taps, inputs, places);
-    past_[oldest] = amplitude;
-    oldest_ = oldest + 1 < depth ? oldest + 1 : 0;
+  Scalar shape(Scalar amplitude) {
+    typename Rounding::Entry now{amplitude};
+    const Scalar shaped = rounding_.sum(parameters_.taps, now, line_.past(parameters_.spacing));
+    line_.push(now, parameters_.spacing);
     return shaped;
   }
 
+ private:
+  using Rounding = NotchRounding<Scalar, TapCount>;
+
   Parameters parameters_;
-  [[no_unique_address]] NotchRounding<Scalar, length, TapCount> rounding_;
-  // No std::array: with it a compiler forgets the parameters at each store to a place that varies.
-  Scalar past_[length]{};
-  std::uint32_t oldest_ = 0;
+  [[no_unique_address]] Rounding rounding_;
+  DelayLine<typename Rounding::Entry, MaxSpacing, TapCount - 1> line_;
 };
 
 }  // namespace sonoglide::control

@@ -64,10 +64,13 @@ TYPED_TEST(ControllerSize, EachPartLeftOutSavesItsState) {
 
 // An image is built for its plant: the delay line is as long as the notch needs, not longer.
 TYPED_TEST(ControllerSize, TheDelayLineIsAsLongAsTheNotch) {
-  EXPECT_EQ(sizeof(NotchShaper<TypeParam, 9>) - sizeof(NotchShaper<TypeParam, 1>),
-            16 * sizeof(TypeParam));
-  EXPECT_EQ((sizeof(NotchShaper<TypeParam, 9, 5>) - sizeof(NotchShaper<TypeParam, 1, 5>)),
-            32 * sizeof(TypeParam));
+  EXPECT_EQ(sizeof(NotchShaper<TypeParam, 9>) - sizeof(NotchShaper<TypeParam, 2>),
+            14 * sizeof(TypeParam));
+  EXPECT_EQ((sizeof(NotchShaper<TypeParam, 9, 5>) - sizeof(NotchShaper<TypeParam, 2, 5>)),
+            28 * sizeof(TypeParam));
+  // With a spacing of 1 it has no place to remember.
+  EXPECT_GT(sizeof(NotchShaper<TypeParam, 2>) - sizeof(NotchShaper<TypeParam, 1>),
+            2 * sizeof(TypeParam));
 }
 
 }  // namespace

@@ -196,10 +196,11 @@ TEST(FixedDotProduct, RoundsEachProductAndSaturatesOnce) {
 
   // The first two products leave the range, the third brings the sum back.
   const std::array<Long, 3> c{Long::lowest(), Long::lowest(), Long::lowest()};
-  const std::array<Long, 3> d{Long::lowest(), Long::from_real(-0.5), Long::from_real(0.75)};
-  EXPECT_EQ(dot(c, d), Long::from_real(0.75));
+  const std::array<Long, 3> d{-Long::largest(), Long::from_real(-0.5), Long::from_real(0.75)};
+  EXPECT_EQ(dot(c, d), Long::from_real(0.75) - Long::from_raw(1));
   const std::array<Long, 2> lowest{Long::lowest(), Long::lowest()};
-  EXPECT_EQ(dot(lowest, lowest), Long::largest());
+  const std::array<Long, 2> next{-Long::largest(), -Long::largest()};
+  EXPECT_EQ(dot(lowest, next), Long::largest());
 }
 
 }  // namespace
