@@ -34,7 +34,7 @@ Scalar dahl_vibration_velocity(Scalar half_ratio, Scalar speed,
     return numeric::from_code<Scalar>(INT32_MAX);
   }
   const numeric::Floating<Scalar> stretched =
-      numeric::quotient(numeric::floating(speed), numeric::floating(half_ratio));
+      numeric::quotient(numeric::floating_positive(speed), numeric::floating_positive(half_ratio));
   const GridPosition row = position<Grid::Row>(numeric::product(half_travel, stretched));
   return limited_sum(speed, stretched,
                      square<Scalar>(interpolate(dahl_inverse_table, row, column(half_ratio))));

@@ -119,10 +119,10 @@ template <class Scalar>
 GridPosition column(Scalar half_ratio) {
   const Scalar half_gap = numeric::from_real<Scalar>(0.5) - half_ratio;
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
-    if (half_gap == Scalar{}) {
+    if (!(Scalar{} < half_gap)) {
       return {0, 0};
     }
-    numeric::Split<Scalar> gap = numeric::split(half_gap);
+    numeric::Split<Scalar> gap = numeric::split_positive(half_gap);
     ++gap.exponent;
     return position<Grid::Column>(gap);
   } else {
@@ -196,9 +196,9 @@ Scalar tabulated_vibration_velocity(Scalar half_ratio, Scalar speed,
   if (!(Scalar{} < half_ratio)) {
     return numeric::from_code<Scalar>(INT32_MAX);
   }
-  const numeric::Floating<Scalar> sliding = numeric::floating(speed);
+  const numeric::Floating<Scalar> sliding = numeric::floating_positive(speed);
   const numeric::Floating<Scalar> stretched =
-      numeric::quotient(sliding, numeric::floating(half_ratio));
+      numeric::quotient(sliding, numeric::floating_positive(half_ratio));
   const GridPosition row = position<Grid::Row>(numeric::product(half_travel, stretched));
   const Scalar begin = form == InverseForm::beyond_sliding ? speed : Scalar{};
   const numeric::Floating<Scalar> unit =

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "firmware/numeric/fixed.hpp"
+#include "firmware/numeric/headroom.hpp"
 
 namespace sonoglide::numeric {
 
@@ -31,16 +32,14 @@ constexpr Accumulator<Scalar> accumulate(Scalar x) {
   }
 }
 
-/// a·b in the accumulator. For Q15 exact, but (-1)(-1) overflows; otherwise rounded as by
-/// operator*.
+/// a·b in the accumulator, a and b not both -1. For Q15 exact; otherwise rounded as by operator*.
 template <class Scalar>
 constexpr Accumulator<Scalar> accumulated_product(Scalar a, Scalar b) {
   using Sum = Accumulator<Scalar>;
   if constexpr (std::is_same_v<Sum, Scalar>) {
-    return a * b;
+    return bounded_product(a, b);
   } else {
-    const std::int32_t product = std::int32_t{a.raw()} * b.raw();
-    return product == 1 << 30 ? Sum::beyond(false) : Sum::from_raw(2 * product);
+    return Sum::from_raw(2 * a.raw() * b.raw());
   }
 }
 

@@ -26,6 +26,16 @@ constexpr Floating<Scalar> floating(Scalar x) {
   }
 }
 
+/// As floating(), without a look at whether x > 0.
+template <class Scalar>
+constexpr Floating<Scalar> floating_positive(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return split_positive(x);
+  } else {
+    return x;
+  }
+}
+
 /// A split number in this form: exact in fixed point, as scale_by_power_of_two in floating point.
 template <class Scalar>
 constexpr Floating<Scalar> floating(const Split<Scalar>& x) {

@@ -69,6 +69,16 @@ constexpr Scalar kept_product(Scalar a, Scalar b) {
   return is_fixed_point_v<Scalar> ? half_product(a, b) : a * b;
 }
 
+/// As a * b, a and b not both -1: without a look at whether the product is in range.
+template <class Scalar>
+constexpr Scalar bounded_product(Scalar a, Scalar b) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return Scalar::from_raw(static_cast<typename Scalar::Raw>(Scalar::rounded_product(a, b)));
+  } else {
+    return a * b;
+  }
+}
+
 /// a b, a and b not both -1. In fixed point too small by less than two units of the last place.
 template <class Scalar>
 constexpr Scalar rough_product(Scalar a, Scalar b) {

@@ -86,6 +86,24 @@ constexpr Scalar clamp(Scalar x, Scalar low, Scalar high) {
   return high < x ? high : x;
 }
 
+/// 0 <= x < high, high > 0; false for -0 and NaN. One comparison of words: those of positive numbers have their
+/// order, and no other number has so small a word.
+template <class Scalar>
+constexpr bool is_below(Scalar x, Scalar high) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    using Word = std::make_unsigned_t<typename Scalar::Raw>;
+    return static_cast<Word>(x.raw()) < static_cast<Word>(high.raw());
+  } else {
+    return to_bits(x) < to_bits(high);
+  }
+}
+
+/// x limited to [0, most], most > 0; NaN stays NaN. Quicker than clamp() where x is inside.
+template <class Scalar>
+constexpr Scalar clamp_positive(Scalar x, Scalar most) {
+  return likely(is_below(x, most)) ? x : clamp(x, Scalar{}, most);
+}
+
 /// x limited to [-most, most], most >= 0; NaN stays NaN. Quicker than clamp() where x is inside.
 template <class Scalar>
 constexpr Scalar clamp_magnitude(Scalar x, Scalar most) {
@@ -164,16 +182,12 @@ struct Split {
   int exponent;
 };
 
-/// Splits x > 0 into a mantissa in [0.5, 1) and a power of two. 0, negative numbers, infinity and
-/// NaN are returned unchanged, with exponent 0.
+/// Splits x, finite and above 0, into a mantissa in [0.5, 1) and a power of two.
 ///
 /// Exact, subnormals included; only a fixed-point value above 1 that has more digits than the
 /// mantissa's fraction holds is rounded. A fixed-point format needs at least one fraction bit.
 template <class Scalar>
-constexpr Split<Scalar> split(Scalar x) {
-  if (!(x > Scalar{}) || !is_finite(x)) {
-    return {x, 0};
-  }
+constexpr Split<Scalar> split_positive(Scalar x) {
   if constexpr (is_fixed_point_v<Scalar>) {
     static_assert(Scalar::fraction_bits > 0);
     const int exponent = bit_width(static_cast<std::uint32_t>(x.raw())) - Scalar::fraction_bits;
@@ -197,6 +211,12 @@ constexpr Split<Scalar> split(Scalar x) {
     const auto shift = static_cast<FloatBits<Scalar>>(exponent) << Format::fraction_bits;
     return {from_bits<Scalar>(bits - shift), exponent - lift};
   }
+}
+
+/// As split_positive(). 0, negative numbers, infinity and NaN are returned unchanged, with exponent 0.
+template <class Scalar>
+constexpr Split<Scalar> split(Scalar x) {
+  return x > Scalar{} && is_finite(x) ? split_positive(x) : Split<Scalar>{x, 0};
 }
 
 /// A left-justified converter code as a number: code * 2^-31, rounded to the scalar. In fixed point

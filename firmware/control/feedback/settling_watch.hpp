@@ -67,8 +67,9 @@ class SettlingWatch {
       --count_;
       count_ = count_ + 1 == limit() ? 0 : count_;
     }
-    const bool disagrees = commanded < target ? commanded < parameters_.agreement * target
-                                              : target < parameters_.agreement * commanded;
+    const bool disagrees =
+        commanded < target ? commanded < numeric::bounded_product(parameters_.agreement, target)
+                           : target < numeric::bounded_product(parameters_.agreement, commanded);
     if (disagrees) {
       disagreement_ += disagreement_ < 2 * disagreement_named ? 1 : 0;
     } else {

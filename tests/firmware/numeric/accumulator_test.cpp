@@ -34,10 +34,5 @@ TEST(AccumulatorTest, RoundsToNearestOnTheWayBack) {
   EXPECT_EQ(rounded<Short>(accumulate(Short::lowest())), Short::lowest());
 }
 
-TEST(AccumulatorTest, TheOneProductThatIsTooLargeOverflows) {
-  using Limited = Q15<Saturating>;
-  EXPECT_EQ(accumulated_product(Limited::lowest(), Limited::lowest()), Q31<Saturating>::largest());
-}
-
 }  // namespace
 }  // namespace sonoglide::numeric::accumulator_test

@@ -83,6 +83,17 @@ TYPED_TEST(HeadroomOf, RoughProductIsTooSmallByLessThanTwoUnits) {
   }
 }
 
+TYPED_TEST(HeadroomOf, BoundedProductIsThatOfTheOperator) {
+  Codes<TypeParam> codes;
+  for (int i = 0; i < draws; ++i) {
+    const TypeParam a = codes.next();
+    const TypeParam b = codes.next();
+    if (a != TypeParam::lowest() || b != TypeParam::lowest()) {
+      ASSERT_EQ(bounded_product(a, b), a * b) << a.raw() << ' ' << b.raw();
+    }
+  }
+}
+
 TYPED_TEST(HeadroomOf, SumsOfProductsAreWithinTheirRounding) {
   using Saturated = Fixed<typename TypeParam::Raw, TypeParam::fraction_bits, Saturating>;
   Codes<Saturated> codes;

@@ -49,6 +49,23 @@ TYPED_TEST(EveryScalar, AnswersTheSame) {
   EXPECT_EQ(to_real(dot(vector, vector)), 0.390625);
 }
 
+TYPED_TEST(EveryScalar, IsBelowHasBothEndsOfItsRange) {
+  const auto high = from_real<TypeParam>(0.375);
+  for (const double value : {-1.0, -0.5, -0.001, 0.0, 0.001, 0.25, 0.374, 0.375, 0.376, 0.75}) {
+    const auto x = from_real<TypeParam>(value);
+    EXPECT_EQ(is_below(x, high), value >= 0.0 && x < high) << value;
+    EXPECT_EQ(clamp_positive(x, high), clamp(x, TypeParam{}, high)) << value;
+  }
+}
+
+TEST(FloatScalar, IsBelowIsFalseForTheNegativeZeroAndNan) {
+  EXPECT_FALSE(is_below(-0.0F, 0.5F));
+  EXPECT_FALSE(is_below(std::numeric_limits<float>::quiet_NaN(), 0.5F));
+  EXPECT_FALSE(is_below(-std::numeric_limits<double>::infinity(), 0.5));
+  EXPECT_TRUE(std::signbit(clamp_positive(-0.0F, 0.5F)));
+  EXPECT_TRUE(std::isnan(clamp_positive(std::numeric_limits<float>::quiet_NaN(), 0.5F)));
+}
+
 TYPED_TEST(EveryScalar, SplitLeavesZeroAndNegativeNumbersWhole) {
   for (const double value : {0.0, -0.5}) {
     const auto parts = split(from_real<TypeParam>(value));
