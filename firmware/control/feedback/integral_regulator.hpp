@@ -127,8 +127,8 @@ class IntegralRegulator {
     error_ = numeric::observe<signal::RatioError>(reference_ - measured);
     proposed_ =
         held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
-    return numeric::observe<signal::CommandedRatio>(numeric::clamp(
-        target + numeric::rounded<Scalar>(proposed_), Scalar{}, numeric::from_real<Scalar>(0.5)));
+    return numeric::observe<signal::CommandedRatio>(numeric::clamp_positive(
+        target + numeric::rounded<Scalar>(proposed_), numeric::from_real<Scalar>(0.5)));
   }
 
   /// Keeps the proposed integral, unless the command stood at a bound and the error pushes further.

@@ -31,7 +31,8 @@ class SpeedForesight {
   /// One call for each sample.
   /// @return the foreseen speed, >= 0; fixed point saturates at full scale
   Scalar speed(Scalar velocity) {
-    if (begun_ && velocity == last_velocity_) {
+    if (velocity == last_velocity_) {
+      begun_ = true;
       last_change_ = {};
       return numeric::abs(numeric::observe<signal::ForeseenVelocity>(velocity));
     }

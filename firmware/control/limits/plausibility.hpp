@@ -39,18 +39,19 @@ class Plausibility {
   /// One call for each reading at a sliding that is fast enough.
   /// @param half_ratio  measured friction ratio on base 2
   /// @param velocity    of the same sample, not 0
-  /// @return true once more readings in a row than are granted were outside
-  bool implausible(Scalar half_ratio, Scalar velocity) {
-    if (lowest() < half_ratio && half_ratio < highest()) {
+  /// @return false once more readings in a row than are granted were outside
+  bool plausible(Scalar half_ratio, Scalar velocity) {
+    if (numeric::likely(numeric::is_below(half_ratio, highest()) ||
+                        (lowest() < half_ratio && half_ratio <= Scalar{}))) {
       outside_ = 0;
       velocity_ = velocity;
-      return false;
+      return true;
     }
     if (outside_ < parameters_.periods) {
       ++outside_;
-      return false;
+      return true;
     }
-    return true;
+    return false;
   }
 
   /// Of an implausible reading: friction pulls at the very velocity at which it resisted.

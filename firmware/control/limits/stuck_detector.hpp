@@ -35,7 +35,7 @@ class StuckDetector {
 
   explicit StuckDetector(const Parameters& parameters) : parameters_(parameters) {}
 
-  void restart() { begun_ = false; }
+  void restart() { still_ = unread; }
 
   /// One call for each reading.
   /// @param reading    of the force sensor
@@ -45,8 +45,7 @@ class StuckDetector {
   /// @return true when the reading has stood still for the granted periods since the command became
   ///         telling
   bool stuck(Scalar reading, Scalar measured, Scalar commanded, bool followed) {
-    if (!begun_ || reading != last_reading_) {
-      begun_ = true;
+    if (reading != last_reading_ || still_ == unread) {
       last_reading_ = reading;
       last_ratio_ = commanded;
       still_ = 0;
@@ -61,11 +60,12 @@ class StuckDetector {
   }
 
  private:
+  static constexpr std::uint32_t unread = UINT32_MAX;  ///< no reading since restart
+
   Parameters parameters_;
   Scalar last_reading_{};
-  Scalar last_ratio_{};      ///< commanded when the reading last changed
-  std::uint16_t still_ = 0;  ///< periods since the command became telling
-  bool begun_ = false;
+  Scalar last_ratio_{};           ///< commanded when the reading last changed
+  std::uint32_t still_ = unread;  ///< periods since the command became telling
 };
 
 }  // namespace sonoglide::control

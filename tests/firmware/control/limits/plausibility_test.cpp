@@ -13,7 +13,7 @@ class PlausibilityTest : public testing::Test {
   static constexpr int periods = 7;
 
   bool implausible(double ratio, double velocity = 0.1) {
-    return plausibility_.implausible(scaled<Scalar>(0.5 * ratio), scaled<Scalar>(velocity));
+    return !plausibility_.plausible(scaled<Scalar>(0.5 * ratio), scaled<Scalar>(velocity));
   }
   bool stood_still(double ratio, double velocity) const {
     return plausibility_.stood_still(scaled<Scalar>(0.5 * ratio), scaled<Scalar>(velocity));
@@ -41,7 +41,7 @@ TYPED_TEST(PlausibilityTest, AReadingInsideBeginsTheCountAnew) {
 }
 
 TYPED_TEST(PlausibilityTest, ContactsStayInside) {
-  for (const double ratio : {-0.14, 0.0, 0.5, 1.0, 1.29}) {
+  for (const double ratio : {-0.14, -0.0, 0.0, 0.5, 1.0, 1.29}) {
     for (int i = 0; i < 100; ++i) {
       ASSERT_FALSE(this->implausible(ratio)) << ratio;
     }
