@@ -310,6 +310,9 @@ class Controller {
     }
     regulator_.learn_scale([&](Scalar ratio) { return feedforward_.amplitude(ratio, speed); });
     const Scalar ratio = regulator_.propose(target_, aim_.reading(measured, target_, commanded_));
+    if (!numeric::likely(target_ < whole_ratio())) {
+      return release(ratio);
+    }
     const Request wanted = feedforward(ratio, speed);
     const Scalar amplitude = slew_.limit(wanted.amplitude, requested_);
     const bool held_below = amplitude < wanted.amplitude;
@@ -330,12 +333,17 @@ class Controller {
     return {slew_.limit(wanted.amplitude, requested_), wanted.limit};
   }
 
-  /// Judges the measured ratio; without a drive there is nothing to judge.
+  /// Answer to a target of no drive: there is nothing to correct or to judge.
+  Request release(Scalar ratio) {
+    regulator_.accept(false, false);
+    commanded_ = regulator_.implied(ratio);
+    watch_.restart();
+    const Scalar amplitude = slew_.limit(Scalar{}, requested_);
+    return {amplitude, Scalar{} < amplitude ? Limit::slew : Limit::none};
+  }
+
+  /// Judges the measured ratio under a drive.
   void judge(Scalar measured, Scalar speed, bool clamped) {
-    if (whole_ratio() <= target_) {
-      watch_.restart();
-      return;
-    }
     const Scalar implied = vibration_.implied_ratio(commanded_, [&](auto velocity) {
       return watch_.implied_ratio(target_, requested_, velocity, [&](Scalar ratio) {
         return feedforward_.amplitude(ratio, speed);
@@ -346,9 +354,6 @@ class Controller {
 
   /// Amplitude for a commanded ratio, from the inverse map.
   Request feedforward(Scalar half_ratio, Scalar speed) {
-    if (whole_ratio() <= target_) {
-      return {Scalar{}, Limit::none};
-    }
     const Scalar amplitude = regulator_.scaled(map_.amplitude(feedforward_, half_ratio, speed));
     const Scalar highest = vibration_.highest(ceiling_.highest());
     if (!(amplitude < highest)) {

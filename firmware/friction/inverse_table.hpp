@@ -40,12 +40,11 @@ GridPosition position(Float x) {
   constexpr Bits begin = numeric::to_bits(numeric::power_of_two<Float>(Axis::first_octave));
   constexpr Bits end = numeric::to_bits(numeric::power_of_two<Float>(Axis::end_octave));
   const Bits bits = numeric::to_bits(x);
-  if (bits < begin) {
-    return {0,
-            static_cast<std::int32_t>(x * numeric::power_of_two<Float>(31 - Axis::first_octave))};
-  }
-  if (bits >= end) {
-    return {Axis::lines - 2, INT32_MAX};
+  if (!numeric::likely(bits - begin < end - begin)) {
+    return bits < begin
+               ? GridPosition{0, static_cast<std::int32_t>(
+                                     x * numeric::power_of_two<Float>(31 - Axis::first_octave))}
+               : GridPosition{Axis::lines - 2, INT32_MAX};
   }
   // All that is above the rest is shifted out.
   constexpr int above_rest = std::numeric_limits<Bits>::digits - quarter_bits;
@@ -135,7 +134,7 @@ template <class Float, std::enable_if_t<std::is_floating_point_v<Float>, int> = 
 Float limited_sum(Float x, Float a, Float b) {
   const Float sum = x + (a + a) * b;
   constexpr auto largest = numeric::from_code<Float>(INT32_MAX);
-  return sum < largest ? sum : largest;
+  return numeric::likely(numeric::is_below(sum, largest)) ? sum : numeric::min(largest, sum);
 }
 
 template <class Overflow>
@@ -147,7 +146,8 @@ numeric::Q31<Overflow> limited_sum(numeric::Q31<Overflow> x,
   const int up = a.exponent + 2;
   const std::int32_t more = up < 0 ? product.raw() >> numeric::min(-up, 31)
                                    : numeric::lifted(product, numeric::min(up, 31)).raw();
-  return Scalar::from_raw(x.raw() + numeric::min(more, INT32_MAX - x.raw()));
+  std::int32_t sum = 0;
+  return __builtin_add_overflow(x.raw(), more, &sum) ? Scalar::largest() : Scalar::from_raw(sum);
 }
 
 template <class Overflow>

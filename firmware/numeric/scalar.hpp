@@ -10,6 +10,7 @@
 
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/float_format.hpp"
+#include "firmware/numeric/float_unit.hpp"
 
 namespace sonoglide::numeric {
 
@@ -233,23 +234,32 @@ constexpr Scalar from_code(std::int32_t code) {
       return Scalar::from_raw(static_cast<typename Scalar::Raw>(raw < largest ? raw : largest));
     }
   } else {
+    if constexpr (converts_codes<Scalar>) {
+      if (!__builtin_is_constant_evaluated()) {
+        return code_to_float(code);
+      }
+    }
     return static_cast<Scalar>(code) * power_of_two<Scalar>(-31);
   }
 }
 
 namespace detail {
 
-/// Whether x 2^31 is so large that it has no digits after the point, and in range. Floating-point
-/// numbers above 0 have the order of their bits, and integers are compared faster.
+/// The bits of the least number x > 0 such that x 2^31, and that of each larger one, has no digits after the point.
+/// Floating-point numbers above 0 have the order of their bits, and integers are compared faster.
+template <class Float>
+constexpr FloatBits<Float> least_whole_code() {
+  return to_bits(power_of_two<Float>(std::numeric_limits<Float>::digits - 32));
+}
+
+/// Whether x 2^31 has no digits after the point because x is so large, and is in range.
 template <class Float>
 constexpr bool has_whole_code(Float x) {
-  constexpr int digits = std::numeric_limits<Float>::digits;
-  if constexpr (digits > 31) {
+  if constexpr (std::numeric_limits<Float>::digits > 31) {
     return false;
   } else {
-    constexpr FloatBits<Float> least = to_bits(power_of_two<Float>(digits - 32));
-    constexpr FloatBits<Float> room = to_bits(Float(1)) - least;
-    return to_bits(abs(x)) - least < room;
+    constexpr FloatBits<Float> room = to_bits(Float(1)) - least_whole_code<Float>();
+    return to_bits(abs(x)) - least_whole_code<Float>() < room;
   }
 }
 
@@ -263,6 +273,12 @@ constexpr std::int32_t to_code(Scalar x) {
     return fixed_cast<Q31<typename Scalar::Overflow>>(x).raw();
   } else {
     using Code = std::numeric_limits<std::int32_t>;
+    if constexpr (converts_codes<Scalar>) {
+      if (!__builtin_is_constant_evaluated() &&
+          likely(to_bits(abs(x)) >= detail::least_whole_code<Scalar>())) {
+        return float_to_code(x);
+      }
+    }
     const Scalar scaled = x * power_of_two<Scalar>(31);
     if (likely(detail::has_whole_code(x))) {
       return static_cast<std::int32_t>(scaled);
