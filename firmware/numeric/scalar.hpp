@@ -235,7 +235,7 @@ constexpr Scalar from_code(std::int32_t code) {
     }
   } else {
     if constexpr (converts_codes<Scalar>) {
-      if (!__builtin_is_constant_evaluated()) {
+      if (!__builtin_is_constant_evaluated() && !__builtin_constant_p(code)) {
         return code_to_float(code);
       }
     }
