@@ -153,7 +153,7 @@ class Controller {
     if (state_ == State::calibrating) {
       return calibrate(measurement);
     }
-    const bool backwards = velocity < Scalar{};
+    const bool backwards = numeric::is_negative(velocity);
     if (backwards != backwards_) {
       backwards_ = backwards;
       interrupt();  // readings that are still on their way belong to the other direction

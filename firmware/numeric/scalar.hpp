@@ -99,6 +99,16 @@ constexpr bool is_below(Scalar x, Scalar high) {
   }
 }
 
+/// x < 0, or -0: the sign alone.
+template <class Scalar>
+constexpr bool is_negative(Scalar x) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return x.raw() < 0;
+  } else {
+    return to_bits(x) >> (8 * sizeof x - 1) != 0;
+  }
+}
+
 /// x limited to [0, most], most > 0; NaN stays NaN. Quicker than clamp() where x is inside.
 template <class Scalar>
 constexpr Scalar clamp_positive(Scalar x, Scalar most) {

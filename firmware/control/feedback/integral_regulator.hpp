@@ -140,12 +140,11 @@ class IntegralRegulator {
     if (!winding_up) {
       integral_ = numeric::observe<signal::RatioIntegral>(proposed_);
     }
-    if (held_ > 0) {
-      --held_;
+    if (numeric::likely(held_ == 0 && rest_ == 0)) {
+      return;
     }
-    if (rest_ > 0) {
-      --rest_;
-    }
+    held_ = static_cast<std::uint16_t>(held_ - (held_ > 0 ? 1 : 0));
+    rest_ = static_cast<std::uint16_t>(rest_ - (rest_ > 0 ? 1 : 0));
   }
 
  protected:

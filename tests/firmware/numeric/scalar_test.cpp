@@ -55,6 +55,7 @@ TYPED_TEST(EveryScalar, IsBelowHasBothEndsOfItsRange) {
     const auto x = from_real<TypeParam>(value);
     EXPECT_EQ(is_below(x, high), value >= 0.0 && x < high) << value;
     EXPECT_EQ(clamp_positive(x, high), clamp(x, TypeParam{}, high)) << value;
+    EXPECT_EQ(is_negative(x), x < TypeParam{}) << value;
   }
 }
 
@@ -62,6 +63,7 @@ TEST(FloatScalar, IsBelowIsFalseForTheNegativeZeroAndNan) {
   EXPECT_FALSE(is_below(-0.0F, 0.5F));
   EXPECT_FALSE(is_below(std::numeric_limits<float>::quiet_NaN(), 0.5F));
   EXPECT_FALSE(is_below(-std::numeric_limits<double>::infinity(), 0.5));
+  EXPECT_TRUE(is_negative(-0.0F) && is_negative(-0.0));
   EXPECT_TRUE(std::signbit(clamp_positive(-0.0F, 0.5F)));
   EXPECT_TRUE(std::isnan(clamp_positive(std::numeric_limits<float>::quiet_NaN(), 0.5F)));
 }
