@@ -242,8 +242,7 @@ class Controller {
       const Scalar force = friction_.without_offset(measurement.friction_force);
       const Scalar along = backwards_ ? -force : force;
       const Scalar measured = level_.half_ratio(along);
-      if (!numeric::likely(
-              plausibility_.plausible(aim_.judged(measured), measurement.sliding_velocity))) {
+      if (!plausibility_.plausible(aim_.judged(measured), measurement.sliding_velocity)) {
         return trip(plausibility_.stood_still(measured, measurement.sliding_velocity)
                         ? Fault::velocity_stuck
                         : Fault::measurement_implausible);

@@ -35,7 +35,7 @@ class SteadyMean {
   /// @param request  that stands
   void begin(Scalar request) {
     request_ = request;
-    count_ = 0;
+    left_ = periods();
     measured_ = {};
     commanded_ = {};
     limited_ = false;
@@ -44,9 +44,10 @@ class SteadyMean {
   /// The next reading follows the last one: without a wait.
   void go_on(Scalar request) {
     begin(request);
-    count_ = parameters_.wait_periods;
+    left_ = parameters_.average_periods;
   }
 
+  /// A complete reading is followed by begin() or go_on().
   /// @return true: the reading is complete
   bool take(const FrictionReading<Scalar>& now) {
     constexpr Scalar standing = numeric::from_real<Scalar>(1.0 / 128.0);
@@ -56,14 +57,16 @@ class SteadyMean {
       moving_periods_ += moving_periods_ < 32 ? 1 : 0;
     }
     request_ = now.requested;
-    ++count_;
-    if (count_ <= parameters_.wait_periods) {
+    --left_;
+    if (left_ >= parameters_.average_periods) {
       return false;
     }
     measured_ += numeric::accumulate(now.measured) * parameters_.weight;
     commanded_ += numeric::accumulate(now.commanded) * parameters_.weight;
-    limited_ = limited_ || !now.followed;
-    if (count_ < periods()) {
+    if (!now.followed) {
+      limited_ = true;
+    }
+    if (left_ > 0) {
       return false;
     }
     before_ = moving_periods_;
@@ -95,7 +98,7 @@ class SteadyMean {
   Scalar request_{};
   numeric::Accumulator<Scalar> measured_{};
   numeric::Accumulator<Scalar> commanded_{};
-  std::uint32_t count_ = 0;
+  std::uint32_t left_ = 0;           ///< periods to the end of the reading, > 0 in each take()
   std::int32_t moving_periods_ = 0;  ///< since the last reading
   std::int32_t before_ = 0;          ///< of the last reading
   bool limited_ = false;
