@@ -70,6 +70,13 @@ struct AdaptiveGain {
   std::uint16_t patience_periods = 0;
 };
 
+/// Of a slow contact behind a drive that is fed forward (control::ContactForesight).
+struct ContactForesight {
+  double presliding_periods =
+      0.0;  ///< in which the sliding takes the contact through its presliding distance
+  double least_ratio = 0.0;  ///< that the contact follows at full drive
+};
+
 /// A controller's parameters as real numbers, per unit of ControlScales; friction ratios on base 2. A
 /// "period" in a name here is one of the controller, controller.every_periods carrier periods.
 struct ControlDesign {
@@ -84,7 +91,8 @@ struct ControlDesign {
   double lead_periods = 0.0;   ///< from a sample to the middle of its effect
   double integral_gain = 0.0;  ///< per period
   std::optional<AdaptiveGain> adaptive_gain;
-  double contact_lead = 0.0;    ///< see control::ContactLead; 0: the contact is prompt
+  double contact_lead = 0.0;  ///< see control::ContactLead; 0: the contact is prompt
+  std::optional<ContactForesight> contact_foresight;
   double reference_keep = 0.0;  ///< of the reference's lag behind a past target, per period
   std::uint8_t reference_delay_periods = 1;
   std::uint16_t hold_periods = 0;

@@ -2,11 +2,13 @@
 /// simulation and for an image alike.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
 #include "firmware/control/controller.hpp"
 #include "firmware/control/feedback/adaptive_regulator.hpp"
+#include "firmware/control/feedback/contact_foresight.hpp"
 #include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
@@ -132,6 +134,23 @@ typename control::ContactLead<Regulator>::Parameters parameters(
     const ControlDesign& design, Type<control::ContactLead<Regulator>> /*part*/) {
   return {parameters(design, Type<Regulator>{}),
           split<typename Regulator::Scalar>(2.0 * design.contact_lead)};
+}
+
+/// Of a prompt contact where the design has no foresight.
+template <class Regulator>
+typename control::ContactForesight<Regulator>::Parameters parameters(
+    const ControlDesign& design, Type<control::ContactForesight<Regulator>> /*part*/) {
+  using Scalar = typename Regulator::Scalar;
+  typename control::ContactForesight<Regulator>::Parameters all{};
+  all.regulator = parameters(design, Type<Regulator>{});
+  if (design.contact_foresight) {
+    const auto [periods, least_ratio] = *design.contact_foresight;
+    all.rise = scaled<Scalar>(1.0 / periods);
+    all.fall = scaled<Scalar>(std::min(0.25, 1.0 / (periods * least_ratio)));
+    all.least = scaled<Scalar>(0.5 * least_ratio);
+    all.presliding = split<Scalar>(periods / 8.0);
+  }
+  return all;
 }
 
 /// Without any pause where the design has none.

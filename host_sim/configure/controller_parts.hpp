@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "firmware/control/feedback/adaptive_regulator.hpp"
+#include "firmware/control/feedback/contact_foresight.hpp"
 #include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/feedback/scaling_regulator.hpp"
@@ -132,7 +133,10 @@ struct RegulatorParts {
   using Adaptive = control::AdaptiveRegulator<Scalar, max_reference_delay>;
   using Lead = control::ContactLead<None>;
   using LedIntegral = control::ContactLead<Integral>;
-  using Part = Choice<None, Integral, Scaling, Adaptive, Lead, LedIntegral>;
+  using ForeseenIntegral = control::ContactForesight<Integral>;
+  using ForeseenAdaptive = control::ContactForesight<Adaptive>;
+  using Part = Choice<None, Integral, Scaling, Adaptive, Lead, LedIntegral, ForeseenIntegral,
+                      ForeseenAdaptive>;
 
   static Part chosen(const ControlDesign& design) {
     const bool leads = design.contact_lead > 0.0;
@@ -140,7 +144,10 @@ struct RegulatorParts {
       return leads ? Part(Type<Lead>{}) : Part(Type<None>{});
     }
     if (design.adaptive_gain) {
-      return Part(Type<Adaptive>{});
+      return design.contact_foresight ? Part(Type<ForeseenAdaptive>{}) : Part(Type<Adaptive>{});
+    }
+    if (design.contact_foresight) {
+      return Part(Type<ForeseenIntegral>{});
     }
     if (design.resonance() != nullptr && design.resonance()->scales) {
       return Part(Type<Scaling>{});

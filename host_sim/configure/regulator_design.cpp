@@ -83,6 +83,12 @@ void set_waiting(const scene::Scene& scene, double delay, double lag, ControlDes
   design.rest_periods = whole_periods(rest_per_hold * design.hold_periods);
 }
 
+/// The ratio of a contact that is read, and that shows the vibration, may follow the drive slowly.
+bool may_be_slow(const scene::Scene& scene) {
+  return scene.sensor.force && scene::is_elastic(scene.friction.law) &&
+         scene::vibrates_along(scene.friction.law);
+}
+
 /// The lead of a slow contact (control::ContactLead), where the vibration is observed: of a drive that is fed forward
 /// it would excite a mode whose stiffness is off. None where it would add less than a quarter of the error at a ratio
 /// of 1, nor at resonance, where the vibration itself takes longer than the contact.
@@ -92,11 +98,9 @@ double design_contact_lead(const scene::Scene& scene, const NominalPlant& plant,
                            ControlDesign& design) {
   constexpr double least = 0.25;
   constexpr double most = 1024.0;  // beyond it an error of 0.001 asks for all of the drive
-  const bool may_be_slow = scene.sensor.force && scene::is_elastic(scene.friction.law) &&
-                           scene::vibrates_along(scene.friction.law) &&
-                           scene.vibration_mode() != scene::VibrationMode::resonant;
   const double slid_m = scene.sliding.fastest_m_per_s() * design.scales.step_period_s();
-  if (!may_be_slow || !(slid_m > 0.0)) {
+  if (!may_be_slow(scene) || scene.vibration_mode() == scene::VibrationMode::resonant ||
+      !(slid_m > 0.0)) {
     return 0.0;
   }
   const double lead = design.integral_gain * presliding_m(plant) / slid_m;
@@ -105,6 +109,48 @@ double design_contact_lead(const scene::Scene& scene, const NominalPlant& plant,
   }
   design.contact_lead = std::min(most, lead);
   return 1.0 / design.integral_gain;
+}
+
+/// A command that overshoots and comes back passes a notch whole only if no tap is below 0: such a tap takes away what
+/// another gave a moment before, and the drive ends at 0.
+bool passes_an_overshoot(const std::optional<NotchDesign>& notch) {
+  return !notch ||
+         std::all_of(notch->taps.begin(), notch->taps.end(), [](double tap) { return tap >= 0.0; });
+}
+
+/// Mean velocity over mean speed at full drive: what a contact follows that forgets little in a period.
+double least_ratio(double sliding_m_per_s, double full_m_per_s) {
+  const double ratio = sliding_m_per_s / full_m_per_s;
+  if (!(ratio < 1.0)) {
+    return 1.0;
+  }
+  return 0.25 * numeric::two_pi * ratio /
+         (ratio * numeric::asin(ratio) + numeric::sqrt(1.0 - ratio * ratio));
+}
+
+/// The foresight of a slow contact, where the vibration is not observed; where the friction would take longer than
+/// the four periods in which the model comes to its target. None where every change of the drive excites the mode.
+std::optional<ContactForesight> design_contact_foresight(const scene::Scene& scene,
+                                                         const NominalPlant& plant,
+                                                         const ControlDesign& design,
+                                                         const FeedforwardDesign& fed_forward) {
+  constexpr double least_periods = 4.0;
+  constexpr double most_periods = 1024.0;
+  constexpr double useful_ratio = 0.125;  // a command below it is not needed
+  constexpr double most_left = 0.05;      // of the free vibration, by an overshoot to full drive
+  if (!may_be_slow(scene) || fed_forward.left > most_left || fed_forward.free_mode ||
+      !passes_an_overshoot(fed_forward.notch)) {
+    return std::nullopt;
+  }
+  const double sliding_m_per_s = scene.sliding.fastest_m_per_s();
+  const double slid_m = sliding_m_per_s * design.scales.step_period_s();
+  const double periods = slid_m > 0.0 ? presliding_m(plant) / slid_m : 0.0;
+  if (!(periods > least_periods)) {
+    return std::nullopt;
+  }
+  return ContactForesight{
+      std::min(most_periods, periods),
+      std::max(useful_ratio, least_ratio(sliding_m_per_s, design.scales.velocity_m_per_s))};
 }
 
 }  // namespace
@@ -158,6 +204,7 @@ FeedforwardDesign design_feedforward(const scene::Scene& scene, const NominalPla
   if (found.ramped() && keeps_harmonics(scene, mode)) {
     design.adaptive_gain = gain_that_adapts(scene, delay);
   }
+  design.contact_foresight = design_contact_foresight(scene, plant, design, found);
   const double ripple = found.notch ? found.notch->ripple : 0.0;
   found.missing_damping_N_s_per_m =
       missing_damping_N_s_per_m(found.ramped() && quiet ? found.left : ripple,

@@ -63,14 +63,25 @@ PartText part_text(configure::Type<control::ScalingRegulator<Scalar, MaxDelay>> 
       fmt::format(", {}", parameters.delay_periods));
 }
 
+/// A regulator in another part, whose parameters hold its own.
+template <template <class> class Outer, class Regulator, class Parameters>
+PartText text_around(const Parameters& parameters) {
+  PartText text = part_text(configure::Type<Regulator>{}, parameters.regulator);
+  text.headers.emplace_back(Outer<Regulator>::part_name.header);
+  text.type = fmt::format("{}<control::{}>", Outer<Regulator>::part_name.type, text.type);
+  return text;
+}
+
 template <class Regulator, class Parameters>
 PartText part_text(configure::Type<control::ContactLead<Regulator>> /*part*/,
                    const Parameters& parameters) {
-  PartText text = part_text(configure::Type<Regulator>{}, parameters.regulator);
-  text.headers.emplace_back(control::ContactLead<Regulator>::part_name.header);
-  text.type =
-      fmt::format("{}<control::{}>", control::ContactLead<Regulator>::part_name.type, text.type);
-  return text;
+  return text_around<control::ContactLead, Regulator>(parameters);
+}
+
+template <class Regulator, class Parameters>
+PartText part_text(configure::Type<control::ContactForesight<Regulator>> /*part*/,
+                   const Parameters& parameters) {
+  return text_around<control::ContactForesight, Regulator>(parameters);
 }
 
 /// The periods of delay that a vibration is told.

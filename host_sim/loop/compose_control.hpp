@@ -46,7 +46,7 @@ std::unique_ptr<ControlPort> make_balanced_control(const ControlDesign& design) 
             control::Parts<Scalar, typename decltype(friction)::type,
                            typename decltype(feedforward)::type, control::SlewLimit<Scalar>,
                            typename decltype(shaper)::type,
-                           control::IntegralRegulator<Scalar, configure::max_reference_delay>,
+                           typename configure::RegulatorParts<Scalar>::ForeseenIntegral,
                            control::PeriodicRelearning<Scalar>, control::BalancedFedForward<Scalar>,
                            control::ForceSensor, control::ForceTarget<Scalar>>;
         return in_process<Parts>(design);
@@ -59,12 +59,11 @@ template <class Scalar>
 std::unique_ptr<ControlPort> make_tracking_control(const ControlDesign& design) {
   return std::visit(
       [&](auto shaper) -> std::unique_ptr<ControlPort> {
-        using Parts =
-            control::Parts<Scalar, control::TrustedFriction<Scalar>,
-                           control::TrackedDahlFeedforward<Scalar>, control::SlewLimit<Scalar>,
-                           typename decltype(shaper)::type,
-                           control::AdaptiveRegulator<Scalar, configure::max_reference_delay>,
-                           control::FrictionTracking<Scalar>>;
+        using Parts = control::Parts<Scalar, control::TrustedFriction<Scalar>,
+                                     control::TrackedDahlFeedforward<Scalar>,
+                                     control::SlewLimit<Scalar>, typename decltype(shaper)::type,
+                                     typename configure::RegulatorParts<Scalar>::ForeseenAdaptive,
+                                     control::FrictionTracking<Scalar>>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       configure::ControllerParts<Scalar>(design).shaper);
@@ -79,13 +78,12 @@ std::unique_ptr<ControlPort> make_fed_forward_control(const ControlDesign& desig
           auto extras) -> std::unique_ptr<ControlPort> {
         using Chosen = typename FewerExtras<Scalar, typename decltype(feedforward)::type,
                                             typename decltype(extras)::type>::type;
-        using Parts =
-            control::Parts<Scalar, typename decltype(friction)::type,
-                           typename decltype(feedforward)::type, typename Chosen::Slew,
-                           typename decltype(shaper)::type,
-                           control::AdaptiveRegulator<Scalar, configure::max_reference_delay>,
-                           typename Chosen::Relearning, control::FedForward<Scalar>,
-                           control::ForceSensor, control::ForceTarget<Scalar>>;
+        using Parts = control::Parts<Scalar, typename decltype(friction)::type,
+                                     typename decltype(feedforward)::type, typename Chosen::Slew,
+                                     typename decltype(shaper)::type,
+                                     typename configure::RegulatorParts<Scalar>::ForeseenAdaptive,
+                                     typename Chosen::Relearning, control::FedForward<Scalar>,
+                                     control::ForceSensor, control::ForceTarget<Scalar>>;
         return std::make_unique<InProcessControl<Parts>>(design);
       },
       parts.friction, map_of<Scalar>(design), parts.shaper,

@@ -66,10 +66,12 @@ class AdaptiveRegulator : public IntegralRegulator<Scalar, MaxDelay> {
     restore();
   }
 
-  void target_changes(Scalar change) {
-    if (Integral::target_changes(change)) {
+  bool target_changes(Scalar change) {
+    const bool holds = Integral::target_changes(change);
+    if (holds) {
       restore();
     }
+    return holds;
   }
 
   void accept(bool at_most_drive, bool at_least_drive) {

@@ -9,6 +9,7 @@
 
 #include "design.hpp"
 #include "firmware/control/feedback/adaptive_regulator.hpp"
+#include "firmware/control/feedback/contact_foresight.hpp"
 #include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/friction/friction_tracking.hpp"
 #include "firmware/control/friction/tabulated_feedforward.hpp"
@@ -62,7 +63,8 @@ template <class Part>
 class ParameterFields : public testing::Test {};
 using S = float;
 using EveryPart =
-    testing::Types<Controller<FullParts<S>>, AdaptiveRegulator<S, 2>, TabulatedFeedforward<S>,
+    testing::Types<Controller<FullParts<S>>, AdaptiveRegulator<S, 2>,
+                   ContactForesight<AdaptiveRegulator<S, 2>>, TabulatedFeedforward<S>,
                    FrictionTracking<S>, ForceTarget<S>, TolerantSamples, DampedVibration<S, 2>,
                    BiasedDampedVibration<S, 2>, SensorlessVibration<S, 2, LaggingReading<S>>,
                    BiasedSensorlessVibration<S, 2, LaggingReading<S>>,

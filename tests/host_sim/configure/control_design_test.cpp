@@ -307,6 +307,55 @@ TEST(ControlDesignTest, LeadsNoContactThatIsPromptNorADriveThatIsFedForward) {
   }
 }
 
+/// Fed forward, under a drive that ramps; the mode at 2.01 carrier frequencies.
+scene::Scene slow_beside_a_multiple(double presliding_periods) {
+  scene::Scene scene = with_presliding_periods(presliding_periods);
+  scene.controller->vibration.reset();
+  scene.sensor.vibration.reset();
+  scene.controller->shaping.reset();
+  scene.drive->interpolation = scene::Interpolation::linear;
+  scene.drive->max_force_amplitude_N = 6000.0;
+  const double natural_rad_per_s = 2.01 * 2.0 * pi * scene.drive->frequency_Hz;
+  scene.plant.stiffness_N_per_m = scene.plant.mass_kg * natural_rad_per_s * natural_rad_per_s;
+  return scene;
+}
+
+TEST(ControlDesignTest, ForeseesASlowContactBehindADriveThatIsFedForward) {
+  EXPECT_FALSE(design_control(slow_beside_a_multiple(4.0)).contact_foresight);
+  const scene::Scene scene = slow_beside_a_multiple(20.0);
+  const ControlDesign design = design_control(scene);
+  ASSERT_TRUE(design.contact_foresight);
+  EXPECT_NEAR(design.contact_foresight->presliding_periods, 20.0, 1e-9);
+  // Sliding over mean speed at full drive, by sums over a period.
+  const double sliding = scene.sliding.fastest_m_per_s();
+  double speed = 0.0;
+  constexpr int phases = 10000;
+  for (int i = 0; i < phases; ++i) {
+    speed += std::abs(sliding + design.scales.velocity_m_per_s * std::cos(2.0 * pi * i / phases));
+  }
+  EXPECT_NEAR(design.contact_foresight->least_ratio, std::max(0.125, sliding * phases / speed),
+              1e-5);
+  const std::vector<std::string> notes = design_notes(design);
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("slides through its presliding distance") != std::string::npos;
+  }));
+}
+
+TEST(ControlDesignTest, ForeseesNoContactBehindANotchThatTakesBackNorInFrontOfAFreeMode) {
+  scene::Scene notched = slow_beside_a_multiple(20.0);
+  notched.drive->interpolation = scene::Interpolation::step;
+  const double natural_rad_per_s = 0.8 * 2.0 * pi * notched.drive->frequency_Hz;
+  notched.plant.stiffness_N_per_m = notched.plant.mass_kg * natural_rad_per_s * natural_rad_per_s;
+  scene::Scene averaged = notched;
+  averaged.plant.stiffness_N_per_m *= 0.25;  // a quarter of a turn a period: taps of 1/2, 0, 1/2
+  scene::Scene free = notched;
+  free.controller->shaping = scene::Shaping::none;
+  EXPECT_FALSE(design_control(notched).contact_foresight);
+  EXPECT_FALSE(design_control(free).contact_foresight);
+  EXPECT_TRUE(design_control(averaged).contact_foresight);
+  EXPECT_FALSE(design_control(with_presliding_periods(20.0)).contact_foresight);
+}
+
 /// Steps until a reading is that of a carrier period in which an answer acts, counted one by one.
 int steps_to_the_reading(int every, int drive_delay, int sensor_delay) {
   const int first_driven =

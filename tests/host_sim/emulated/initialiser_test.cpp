@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "firmware/control/controller.hpp"
+#include "firmware/control/feedback/contact_foresight.hpp"
 #include "firmware/control/feedback/contact_lead.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/friction/dahl_feedforward.hpp"
@@ -147,6 +148,10 @@ TYPED_TEST(InitialiserOf, WritesTheLeadOfASlowContactAndItsRegulator) {
                                          typename control::ContactLead<Integral>::Parameters>()),
             7U);
   EXPECT_EQ(
+      (expect_every_number_in_text<TypeParam,
+                                   typename control::ContactForesight<Integral>::Parameters>()),
+      10U);
+  EXPECT_EQ(
       (expect_every_number_in_text<TypeParam, typename control::ContactLead<Alone>::Parameters>()),
       2U);
 }
@@ -162,6 +167,11 @@ TEST(Initialiser, NamesTheRegulatorInALead) {
                       control::ContactLead<control::NoFeedback<float>>::Parameters{})
                 .type,
             "ContactLead<control::NoFeedback<Scalar>>");
+  using Foreseen = control::ContactForesight<Integral>;
+  EXPECT_EQ(part_text(configure::Type<Foreseen>{},
+                      Foreseen::Parameters{parameters.regulator, {}, {}, {}, {}})
+                .type,
+            "ContactForesight<control::IntegralRegulator<Scalar, 3>>");
 }
 
 TYPED_TEST(InitialiserOf, WritesEveryTapOfARobustNotch) {
