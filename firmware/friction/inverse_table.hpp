@@ -113,13 +113,14 @@ Scalar square(std::int32_t x) {
   }
 }
 
-/// Column of 1 - ρ, for ρ on base 2 in (0, 1/2].
+/// Column of 1 - ρ, for ρ on base 2 in (0, 1/2]. A larger one is at the end, in every format.
 template <class Scalar>
 GridPosition column(Scalar half_ratio) {
   const Scalar half_gap = numeric::from_real<Scalar>(0.5) - half_ratio;
   if constexpr (numeric::is_fixed_point_v<Scalar>) {
     if (!(Scalar{} < half_gap)) {
-      return {0, 0};
+      return half_gap < Scalar{} ? GridPosition{Grid::Column::lines - 2, INT32_MAX}
+                                 : GridPosition{0, 0};
     }
     numeric::Split<Scalar> gap = numeric::split_positive(half_gap);
     ++gap.exponent;

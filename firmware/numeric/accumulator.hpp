@@ -32,7 +32,7 @@ constexpr Accumulator<Scalar> accumulate(Scalar x) {
   }
 }
 
-/// a·b in the accumulator, a and b not both -1. For Q15 exact; otherwise rounded as by operator*.
+/// a·b in the accumulator, a and b not both -1 (undefined). For Q15 exact; otherwise rounded as by operator*.
 template <class Scalar>
 constexpr Accumulator<Scalar> accumulated_product(Scalar a, Scalar b) {
   using Sum = Accumulator<Scalar>;

@@ -17,17 +17,21 @@ template <class Float>
 inline constexpr bool converts_codes = false;
 #endif
 
-/// code * 2^-31, rounded by IEEE-754, where converts_codes.
-inline float code_to_float(std::int32_t code) {
-  float x = from_bits<float>(static_cast<std::uint32_t>(code));
+/// code * 2^-31, rounded to nearest, ties to even, in any rounding mode.
+template <class Float>
+Float code_to_float(std::int32_t code) {
+  static_assert(converts_codes<Float>);
+  auto x = from_bits<Float>(static_cast<std::uint32_t>(code));
 #if defined(__thumb2__) && defined(__ARM_FP)
   asm("vcvt.f32.s32 %[x], %[x], #31" : [x] "+t"(x));
 #endif
   return x;
 }
 
-/// x * 2^31 without the digits after the point, limited to the range of a code, where converts_codes. NaN gives 0.
-inline std::int32_t float_to_code(float x) {
+/// x * 2^31 without the digits after the point, limited to the range of a code. NaN gives 0.
+template <class Float>
+std::int32_t float_to_code(Float x) {
+  static_assert(converts_codes<Float>);
 #if defined(__thumb2__) && defined(__ARM_FP)
   asm("vcvt.s32.f32 %[x], %[x], #31" : [x] "+t"(x));
 #endif

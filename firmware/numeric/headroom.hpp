@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "firmware/numeric/fixed.hpp"
@@ -73,6 +74,7 @@ constexpr Scalar kept_product(Scalar a, Scalar b) {
 template <class Scalar>
 constexpr Scalar bounded_product(Scalar a, Scalar b) {
   if constexpr (is_fixed_point_v<Scalar>) {
+    static_assert(Scalar::fraction_bits == std::numeric_limits<typename Scalar::Raw>::digits);
     return Scalar::from_raw(static_cast<typename Scalar::Raw>(Scalar::rounded_product(a, b)));
   } else {
     return a * b;

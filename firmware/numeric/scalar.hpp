@@ -87,7 +87,7 @@ constexpr Scalar clamp(Scalar x, Scalar low, Scalar high) {
   return high < x ? high : x;
 }
 
-/// 0 <= x < high, high > 0; false for -0 and NaN. One comparison of words: those of positive numbers have their
+/// 0 <= x < high, high >= 0 and not -0; false for x = -0 and NaN. One comparison of words: those of positive numbers have their
 /// order, and no other number has so small a word.
 template <class Scalar>
 constexpr bool is_below(Scalar x, Scalar high) {
@@ -246,7 +246,7 @@ constexpr Scalar from_code(std::int32_t code) {
   } else {
     if constexpr (converts_codes<Scalar>) {
       if (!__builtin_is_constant_evaluated() && !__builtin_constant_p(code)) {
-        return code_to_float(code);
+        return code_to_float<Scalar>(code);
       }
     }
     return static_cast<Scalar>(code) * power_of_two<Scalar>(-31);

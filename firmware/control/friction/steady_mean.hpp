@@ -47,7 +47,7 @@ class SteadyMean {
     left_ = parameters_.average_periods;
   }
 
-  /// A complete reading is followed by begin() or go_on().
+  /// begin() or go_on() comes before the first call, and after each complete reading.
   /// @return true: the reading is complete
   bool take(const FrictionReading<Scalar>& now) {
     constexpr Scalar standing = numeric::from_real<Scalar>(1.0 / 128.0);

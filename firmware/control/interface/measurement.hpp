@@ -21,7 +21,7 @@ enum class Numbers : std::uint8_t {
 template <class Scalar>
 struct Measurement {
   Scalar friction_force;    ///< mean over the last carrier period; base: the force full scale
-  Scalar sliding_velocity;  ///< base: peak vibration velocity at full drive
+  Scalar sliding_velocity;  ///< base: peak vibration velocity at full drive; not -0
   Quality quality = Quality::good;
   bool velocity_at_rail = false;  ///< the speed is at least that of sliding_velocity
 };

@@ -12,7 +12,7 @@
 
 namespace sonoglide::control {
 
-/// What a notch keeps of the last Delays * M periods, M up to MaxSpacing.
+/// What a notch keeps of the last Delays * M periods, M up to MaxSpacing. Its past begins with the newest entry.
 template <class Entry, std::uint32_t MaxSpacing, std::uint32_t Delays>
 class DelayLine {
  public:
@@ -50,7 +50,7 @@ class DelayLine {
   std::uint32_t oldest_ = 0;
 };
 
-/// The same where M is 1: the entries move, which is quicker than to look for them.
+/// The same where M is 1: the entries move, which takes fewer instructions than an index.
 template <class Entry, std::uint32_t Delays>
 class DelayLine<Entry, 1, Delays> {
  public:
@@ -180,7 +180,8 @@ class NoShaping {
 /// No partial sum of the taps leaves [0, 1]: the shaped step does not overshoot.
 /// Source: Singer 1990 (input shaping), Tuttle 1994 (zeros placed on the mode), see ../README.md.
 ///
-/// @tparam MaxSpacing  largest M; the delay line holds (TapCount − 1)·MaxSpacing amplitudes.
+/// @tparam MaxSpacing  largest M; the delay line holds (TapCount − 1)·MaxSpacing amplitudes. With 1
+///                     `spacing` is not read.
 /// @tparam TapCount    3 or 5
 template <class ScalarT, int MaxSpacing, std::size_t TapCount = 3>
 class NotchShaper {

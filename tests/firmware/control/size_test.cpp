@@ -68,7 +68,7 @@ TYPED_TEST(ControllerSize, TheDelayLineIsAsLongAsTheNotch) {
             14 * sizeof(TypeParam));
   EXPECT_EQ((sizeof(NotchShaper<TypeParam, 9, 5>) - sizeof(NotchShaper<TypeParam, 2, 5>)),
             28 * sizeof(TypeParam));
-  // With a spacing of 1 it has no place to remember.
+  // With a spacing of 1 there is no index.
   EXPECT_GT(sizeof(NotchShaper<TypeParam, 2>) - sizeof(NotchShaper<TypeParam, 1>),
             2 * sizeof(TypeParam));
 }

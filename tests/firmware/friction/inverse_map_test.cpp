@@ -100,6 +100,16 @@ TYPED_TEST(DahlInverseMap, EndsAtTheLargestValue) {
   }
 }
 
+TYPED_TEST(DahlInverseMap, ARatioAboveOneAnswersTheSameInEveryFormat) {
+  for (const double ratio : {1.0 + 0x1p-13, 1.01, 1.5}) {
+    for (const double lambda : {0.01, 1.0, 100.0}) {
+      EXPECT_NEAR(vibration_velocity<TypeParam>(ratio, lambda),
+                  vibration_velocity<double>(ratio, lambda), 2e-3)
+          << ratio << " " << lambda;
+    }
+  }
+}
+
 // Drive amplitudes at which Table 1 of the paper reaches a ratio, sliding at 26.72 mm/s and at
 // 0.1 m/s: v = Vt / v̂(1920 N), λ = Kt Vt/(ω Fc).
 TYPED_TEST(DahlInverseMap, GivesTheDriveAmplitudesOfTable1) {

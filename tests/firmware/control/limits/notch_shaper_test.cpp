@@ -60,6 +60,30 @@ template <class Scalar>
 class NotchShaperTest : public testing::Test {};
 TYPED_TEST_SUITE(NotchShaperTest, Scalars);
 
+/// Bit for bit, the errors of Q15 included, also from a restart on.
+template <class Scalar, std::size_t Taps>
+void expect_the_line_for_spacing_1_to_agree(const std::array<double, Taps>& taps) {
+  std::array<Scalar, Taps> rounded{};
+  std::transform(taps.begin(), taps.end(), rounded.begin(),
+                 [](double tap) { return scaled<Scalar>(tap); });
+  NotchShaper<Scalar, 1, Taps> one({rounded, 1});
+  NotchShaper<Scalar, max_spacing, Taps> longer({rounded, 1});
+  for (int k = 0; k < 1000; ++k) {
+    if (k == 500) {
+      one.restart();
+      longer.restart();
+    }
+    const auto amplitude = scaled<Scalar>(0.4 + 0.3 * std::sin(0.7 * k));
+    ASSERT_EQ(numeric::to_real(one.shape(amplitude)), numeric::to_real(longer.shape(amplitude)))
+        << k;
+  }
+}
+
+TYPED_TEST(NotchShaperTest, ALineForSpacing1AnswersAsALongerOne) {
+  expect_the_line_for_spacing_1_to_agree<TypeParam, 3>(notch(mode_for(1, 0.9), 1));
+  expect_the_line_for_spacing_1_to_agree<TypeParam, 5>({0.4, 0.15, 0.2, 0.15, 0.1});
+}
+
 TYPED_TEST(NotchShaperTest, AnswersAnImpulseByItsTapsAtEverySpacing) {
   for (int spacing = 1; spacing <= max_spacing; ++spacing) {
     const auto taps = notch(mode_for(spacing, 0.9), spacing);
