@@ -31,8 +31,7 @@ class SpeedForesight {
   /// One call for each sample.
   /// @return the foreseen speed, >= 0; fixed point saturates at full scale
   Scalar speed(Scalar velocity) {
-    if (velocity == last_velocity_) {
-      begun_ = true;
+    if (begun_ && velocity == last_velocity_) {
       last_change_ = {};
       return numeric::abs(numeric::observe<signal::ForeseenVelocity>(velocity));
     }

@@ -31,9 +31,6 @@ class FedForward : public VibrationPart<ScalarT> {
   template <class Shaper>
   static Request<Scalar> drive(Scalar requested, Shaper& shaper, Scalar ceiling) {
     const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper.shape(requested));
-    if (numeric::likely(numeric::is_below(shaped, ceiling))) {
-      return {shaped, Limit::none};
-    }
     const bool clipped = shaped < Scalar{} || (ceiling <= shaped && requested < ceiling);
     return {numeric::clamp(shaped, Scalar{}, ceiling), clipped ? Limit::actuator : Limit::none};
   }
