@@ -17,18 +17,13 @@ ModeKind kind_of(double natural_per_carrier, bool along) {
   }
   const double nearest = std::round(natural_per_carrier);
   if (nearest >= 2.0 && std::abs(natural_per_carrier - nearest) < beside_multiple) {
-    return nearest == 2.0 ? ModeKind::twice : ModeKind::multiple;
+    return ModeKind::multiple;
   }
   if (natural_per_carrier > fast_mode) {
     return ModeKind::fast;
   }
   const double part = natural_per_carrier - std::floor(natural_per_carrier);
   return std::abs(part - 0.5) < beside_half ? ModeKind::half_turn : ModeKind::other;
-}
-
-/// Of a ramp.
-int codes_per_period(ModeKind kind) {
-  return kind == ModeKind::twice ? 2 : 8;
 }
 
 }  // namespace
@@ -39,7 +34,6 @@ RecommendedMeans recommended_means(double natural_per_carrier, bool along) {
   means.sensorless = means.kind == ModeKind::slow || means.kind == ModeKind::other;
   means.biased = means.kind == ModeKind::slow || means.kind == ModeKind::slowest;
   means.ramped = !means.sensorless && !means.biased;
-  means.codes_per_period = means.ramped ? codes_per_period(means.kind) : 1;
   return means;
 }
 
@@ -51,8 +45,6 @@ std::string_view reason(ModeKind kind) {
       return "no reading tells this mode from the vibration, and a balance of the friction needs none";
     case ModeKind::slow:
       return "the balance keeps the mode from moving, and the observer quiets what is left";
-    case ModeKind::twice:
-      return "the jumps of two codes a period hardly excite the mode, whatever the stiffness";
     case ModeKind::multiple:
       return "the ramp hardly excites the mode, whatever the stiffness";
     case ModeKind::fast:

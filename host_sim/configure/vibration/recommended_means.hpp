@@ -11,8 +11,7 @@ enum class ModeKind {
   across,     ///< the vibration is not along the sliding: the friction does not show it
   slowest,    ///< no reading tells the mode from the vibration, but a balance needs none
   slow,       ///< the friction itself moves the mass
-  twice,      ///< beside twice the carrier
-  multiple,   ///< beside a higher multiple of it
+  multiple,   ///< beside a multiple of the carrier
   fast,       ///< a small part of its stiffness turns it by much in a period
   half_turn,  ///< its direction of rotation is unobservable
   other
@@ -22,9 +21,11 @@ struct RecommendedMeans {
   ModeKind kind = ModeKind::other;
   bool sensorless = false;  ///< controller.vibration = "damped"
   bool biased = false;      ///< drive.bias_limit_N
-  bool ramped = false;      ///< drive.interpolation = "linear"
-  int codes_per_period = 1;
+  bool ramped = false;      ///< drive.interpolation = "linear", in ramp_codes
 };
+
+/// Of a ramp: drive.codes_per_period.
+inline constexpr int ramp_codes = 8;
 
 /// Natural over carrier frequency, below which the friction itself moves the mass.
 inline constexpr double slow_mode = 0.09;

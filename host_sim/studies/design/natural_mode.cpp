@@ -206,7 +206,7 @@ void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
   loop.controller->shaping_range.reset();
   loop.drive->interpolation =
       means.ramped ? scene::Interpolation::linear : scene::Interpolation::step;
-  loop.drive->codes_per_period = means.codes_per_period;
+  loop.drive->codes_per_period = means.ramped ? configure::ramp_codes : 1;
   loop.drive->bias_limit_N = recommended.bias_limit_N;
   if (means.sensorless) {
     loop.controller->vibration = scene::VibrationControl::damped;
@@ -227,7 +227,7 @@ std::vector<SceneLine> scene_lines(const scene::Scene& stated, const Recommended
   if (means.ramped) {
     const auto linear = scene::name_of(scene::interpolations, scene::Interpolation::linear);
     lines.push_back({"drive", "interpolation", quoted(linear)});
-    lines.push_back({"drive", "codes_per_period", fmt::format("{}", means.codes_per_period)});
+    lines.push_back({"drive", "codes_per_period", fmt::format("{}", configure::ramp_codes)});
   }
   if (means.biased) {
     lines.push_back({"drive", "bias_limit_N", fmt::format("{:.3g}", loop.bias_limit_N)});

@@ -305,7 +305,7 @@ void write_drive(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   }
   if (vibration == Vibration::all_means && means_for(loop).ramped) {
     text.word("interpolation", "linear");
-    text.line(fmt::format("codes_per_period = {}", means_for(loop).codes_per_period));
+    text.line(fmt::format("codes_per_period = {}", configure::ramp_codes));
   }
 }
 

@@ -364,12 +364,12 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       << text;
   EXPECT_TRUE(says(
       "Recommended: With the force sensor alone, drive.interpolation = \"linear\", "
-      "drive.codes_per_period = 2, controller.friction = \"calibrated\": the jumps of two codes a period "
-      "hardly excite the mode, whatever the stiffness. Of 8 plants"))
+      "drive.codes_per_period = 8, controller.friction = \"calibrated\": the ramp hardly excites "
+      "the mode, whatever the stiffness. Of 8 plants"))
       << text;
   EXPECT_TRUE(says(
       "Keys: For the recommended loop remove controller.calibration_s, and write these lines below "
-      "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 2\n"
+      "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
       "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
