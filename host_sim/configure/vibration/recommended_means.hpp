@@ -11,7 +11,9 @@ enum class ModeKind {
   across,     ///< the vibration is not along the sliding: the friction does not show it
   slowest,    ///< no reading tells the mode from the vibration, but a balance needs none
   slow,       ///< the friction itself moves the mass
-  multiple,   ///< beside a multiple of the carrier
+  twice,      ///< beside twice the carrier
+  multiple,   ///< beside a higher multiple of it
+  unquiet,    ///< fast too, and a ramp excites it by more than others
   fast,       ///< a small part of its stiffness turns it by much in a period
   half_turn,  ///< its direction of rotation is unobservable
   other
@@ -21,11 +23,10 @@ struct RecommendedMeans {
   ModeKind kind = ModeKind::other;
   bool sensorless = false;  ///< controller.vibration = "damped"
   bool biased = false;      ///< drive.bias_limit_N
-  bool ramped = false;      ///< drive.interpolation = "linear", in ramp_codes
+  bool ramped = false;      ///< drive.interpolation = "linear"
+  int codes_per_period = 1;
+  double shaping_range = 0.0;  ///< controller.shaping = "robust" for it; 0: as the design chooses
 };
-
-/// Of a ramp: drive.codes_per_period.
-inline constexpr int ramp_codes = 8;
 
 /// Natural over carrier frequency, below which the friction itself moves the mass.
 inline constexpr double slow_mode = 0.09;

@@ -204,9 +204,13 @@ void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
   const configure::RecommendedMeans& means = recommended.means;
   loop.controller->shaping.reset();
   loop.controller->shaping_range.reset();
+  if (means.shaping_range > 0.0) {
+    loop.controller->shaping = scene::Shaping::robust;
+    loop.controller->shaping_range = means.shaping_range;
+  }
   loop.drive->interpolation =
       means.ramped ? scene::Interpolation::linear : scene::Interpolation::step;
-  loop.drive->codes_per_period = means.ramped ? configure::ramp_codes : 1;
+  loop.drive->codes_per_period = means.codes_per_period;
   loop.drive->bias_limit_N = recommended.bias_limit_N;
   if (means.sensorless) {
     loop.controller->vibration = scene::VibrationControl::damped;
@@ -227,7 +231,7 @@ std::vector<SceneLine> scene_lines(const scene::Scene& stated, const Recommended
   if (means.ramped) {
     const auto linear = scene::name_of(scene::interpolations, scene::Interpolation::linear);
     lines.push_back({"drive", "interpolation", quoted(linear)});
-    lines.push_back({"drive", "codes_per_period", fmt::format("{}", configure::ramp_codes)});
+    lines.push_back({"drive", "codes_per_period", fmt::format("{}", means.codes_per_period)});
   }
   if (means.biased) {
     lines.push_back({"drive", "bias_limit_N", fmt::format("{:.3g}", loop.bias_limit_N)});
@@ -235,6 +239,11 @@ std::vector<SceneLine> scene_lines(const scene::Scene& stated, const Recommended
   if (means.sensorless) {
     const auto damped = scene::name_of(scene::vibration_controls, scene::VibrationControl::damped);
     lines.push_back({"controller", "vibration", quoted(damped)});
+  }
+  if (means.shaping_range > 0.0) {
+    const auto robust = scene::name_of(scene::shapings, scene::Shaping::robust);
+    lines.push_back({"controller", "shaping", quoted(robust)});
+    lines.push_back({"controller", "shaping_range", fmt::format("{}", means.shaping_range)});
   }
   lines.push_back(
       {"controller", "friction", quoted(scene::name_of(scene::friction_sources, loop.friction))});
@@ -257,10 +266,11 @@ std::vector<std::string> contradicting_keys(const scene::Scene& stated,
                                             const RecommendedLoop& loop) {
   const scene::Controller& controller = *stated.controller;
   std::vector<std::string> keys;
-  if (controller.shaping && *controller.shaping != scene::Shaping::notch) {
+  const bool designed = !(loop.means.shaping_range > 0.0);
+  if (designed && controller.shaping && *controller.shaping != scene::Shaping::notch) {
     keys.emplace_back("controller.shaping");
   }
-  if (controller.shaping_range) {
+  if (designed && controller.shaping_range) {
     keys.emplace_back("controller.shaping_range");
   }
   if (contradicts_calibration(controller, loop.friction)) {

@@ -349,7 +349,7 @@ ordered_json to_json(const NaturalModeStudy& mode) {
       {"interpolation",
        scene::name_of(scene::interpolations, loop.means.ramped ? scene::Interpolation::linear
                                                                : scene::Interpolation::step)},
-      {"codes_per_period", loop.means.ramped ? configure::ramp_codes : 1},
+      {"codes_per_period", loop.means.codes_per_period},
       {"damped", loop.means.sensorless},
       {"bias_limit_N", loop.bias_limit_N},
       {"friction", scene::name_of(scene::friction_sources, loop.friction)},

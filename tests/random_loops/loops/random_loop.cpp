@@ -305,7 +305,7 @@ void write_drive(SceneText& text, const RandomLoop& loop, Vibration vibration) {
   }
   if (vibration == Vibration::all_means && means_for(loop).ramped) {
     text.word("interpolation", "linear");
-    text.line(fmt::format("codes_per_period = {}", configure::ramp_codes));
+    text.line(fmt::format("codes_per_period = {}", means_for(loop).codes_per_period));
   }
 }
 
@@ -329,6 +329,10 @@ void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibrati
   text.word("arithmetic", finer && loop.arithmetic == "q15" ? "q31" : loop.arithmetic);
   if (damped) {
     text.word("vibration", "damped");
+  }
+  if (vibration == Vibration::all_means && means_for(loop).shaping_range > 0.0) {
+    text.word("shaping", "robust");
+    text.number("shaping_range", means_for(loop).shaping_range);
   }
   text.line(fmt::format("target_friction_ratio = [{}]", targets));
   if (vibration != Vibration::damped_alone) {

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/design/study.hpp"
@@ -91,8 +92,8 @@ TEST(NaturalModeTest, RecommendsTheLoopThatSuitsTheMode) {
   const NaturalModeStudy beside = study_of(beside_a_multiple());
   EXPECT_TRUE(beside.recommended_loop.means.ramped);
   EXPECT_EQ(beside.recommended_loop.refused, "");
-  EXPECT_LE(beside.recommended_loop.plants.never, 2U);
-  EXPECT_EQ(beside.recommended_loop.plants.never, beside.drives[1].plants.never);
+  EXPECT_EQ(beside.recommended_loop.means.codes_per_period, 2);
+  EXPECT_EQ(beside.recommended_loop.plants.never, 0U);
 
   scene::Scene slow = table_1();
   slow.plant.stiffness_N_per_m = 2.558e6;  // 0.03 of the carrier
@@ -108,6 +109,23 @@ TEST(NaturalModeTest, RecommendsTheLoopThatSuitsTheMode) {
   EXPECT_TRUE(other.recommended_loop.means.sensorless);
   EXPECT_EQ(other.recommended_loop.bias_limit_N, 0.0);
   EXPECT_EQ(other.recommended_loop.plants.settled, other.plants);
+}
+
+TEST(NaturalModeTest, RecommendsARobustNotchWhereTheRampLeavesMost) {
+  scene::Scene scene = table_1();
+  scene.plant.stiffness_N_per_m = 31.6e9;  // 3.34 of the carrier
+  scene.drive->max_force_amplitude_N = 16000.0;
+  scene.controller->shaping_range = 0.2;
+  scene.controller->shaping = scene::Shaping::robust;
+  const RecommendedLoop found = study_of(scene).recommended_loop;
+  EXPECT_EQ(found.refused, "");
+  EXPECT_EQ(found.plants.never, 0U);
+  EXPECT_EQ(found.leaves, std::vector<std::string>{});
+  const auto range =
+      std::find_if(found.lines.begin(), found.lines.end(),
+                   [](const SceneLine& line) { return line.key == "shaping_range"; });
+  ASSERT_NE(range, found.lines.end());
+  EXPECT_EQ(range->value, "0.03");
 }
 
 TEST(NaturalModeTest, RecommendsTheSourceOfTheFrictionThatTheFirstTargetLeavesTimeFor) {
@@ -364,12 +382,12 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       << text;
   EXPECT_TRUE(says(
       "Recommended: With the force sensor alone, drive.interpolation = \"linear\", "
-      "drive.codes_per_period = 8, controller.friction = \"calibrated\": the ramp hardly excites "
-      "the mode, whatever the stiffness. Of 8 plants"))
+      "drive.codes_per_period = 2, controller.friction = \"calibrated\": the jumps of two codes a period "
+      "hardly excite the mode, whatever the stiffness. Of 8 plants"))
       << text;
   EXPECT_TRUE(says(
       "Keys: For the recommended loop remove controller.calibration_s, and write these lines below "
-      "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 8\n"
+      "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 2\n"
       "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;
   EXPECT_TRUE(says("Carrier: Use ")) << text;
