@@ -96,7 +96,7 @@ class Controller {
       return;
     }
     aim_.take(target, friction_.believed(configured_friction_), level_);
-    const Scalar ratio = numeric::clamp(target, Scalar{}, whole_ratio());
+    const Scalar ratio = numeric::clamp_positive(target, whole_ratio());
     if (ratio != target_) {
       regulator_.target_changes(ratio - target_);
       watch_.retarget();
@@ -127,6 +127,10 @@ class Controller {
  private:
   using Request = control::Request<Scalar>;
   static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
+  /// Of a ratio of 1 or more: it needs no drive.
+  static constexpr bool is_whole(Scalar half_ratio) {
+    return numeric::reaches(half_ratio, whole_ratio());
+  }
 
   DriveCommand<Scalar> answer(const Measurement& measurement, Fault unusable) {
     if (!runs(state_)) {
@@ -183,7 +187,7 @@ class Controller {
       return measurement.friction_force;
     }
     const Scalar force =
-        target_ < whole_ratio() ? numeric::twice(target_) * level_.force() : level_.force();
+        is_whole(target_) ? level_.force() : numeric::twice(target_) * level_.force();
     return backwards_ ? -force : force;
   }
 
@@ -229,8 +233,8 @@ class Controller {
   /// last request stands for a while; a target of no drive gives none here either.
   Request stand(Limit limit) {
     interrupt();
-    return target_ < whole_ratio() ? slewed({standstill_.request(requested_), limit})
-                                   : slewed({Scalar{}, Limit::none});
+    return is_whole(target_) ? slewed({Scalar{}, Limit::none})
+                             : slewed({standstill_.request(requested_), limit});
   }
 
   /// Answer at a sliding that is fast enough for a friction ratio, as far as a sensor tells one.
@@ -263,7 +267,7 @@ class Controller {
 
   /// What relearning asks for in this period. Without a drive there is nothing to pause.
   Task next_task(const FrictionReading<Scalar>& reading) {
-    if (target_ < whole_ratio()) {
+    if (!is_whole(target_)) {
       return relearning_.next(reading, feedforward_);
     }
     interrupt_relearning();
@@ -304,12 +308,12 @@ class Controller {
 
   Request regulate(Scalar measured, Scalar speed) {
     // No drive can bring an undriven reading to its target.
-    if (whole_ratio() <= target_ || !vibration_.settled()) {
+    if (is_whole(target_) || !vibration_.settled()) {
       regulator_.hold();
     }
     regulator_.learn_scale([&](Scalar ratio) { return feedforward_.amplitude(ratio, speed); });
     const Scalar ratio = regulator_.propose(target_, aim_.reading(measured, target_, commanded_));
-    if (!numeric::likely(target_ < whole_ratio())) {
+    if (!numeric::likely(!is_whole(target_))) {
       return release(ratio);
     }
     const Request wanted = feedforward(ratio, speed);
@@ -318,7 +322,7 @@ class Controller {
     const bool held_above = wanted.amplitude < amplitude;
     const bool at_most =
         wanted.limit == PartsT::Vibration::at_full_drive || held_below || vibration_.at_most();
-    const bool at_least = whole_ratio() <= ratio || held_above;
+    const bool at_least = is_whole(ratio) || held_above;
     regulator_.accept(at_most, at_least);
     commanded_ = regulator_.implied(ratio);
     if (!relearning_.pausing()) {
@@ -358,7 +362,7 @@ class Controller {
     if (!(amplitude < highest)) {
       return {highest, PartsT::Vibration::at_full_drive};
     }
-    return {amplitude, whole_ratio() <= half_ratio ? Limit::ratio_end : Limit::none};
+    return {amplitude, is_whole(half_ratio) ? Limit::ratio_end : Limit::none};
   }
 
   DriveCommand<Scalar> apply(const Request& request) {

@@ -26,7 +26,7 @@ constexpr Floating<Scalar> floating(Scalar x) {
   }
 }
 
-/// As floating(), without a look at whether x > 0.
+/// floating() of an x > 0, which is not looked at: of another it is undefined in fixed point.
 template <class Scalar>
 constexpr Floating<Scalar> floating_positive(Scalar x) {
   if constexpr (is_fixed_point_v<Scalar>) {

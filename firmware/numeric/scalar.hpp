@@ -87,8 +87,8 @@ constexpr Scalar clamp(Scalar x, Scalar low, Scalar high) {
   return high < x ? high : x;
 }
 
-/// 0 <= x < high, high >= 0 and not -0; false for x = -0 and NaN. One comparison of words: those of positive numbers have their
-/// order, and no other number has so small a word.
+/// 0 <= x < high, high >= 0 and not -0; false for x = -0 and NaN. One comparison of words: those of positive numbers
+/// have their order, and those of all other numbers are larger.
 template <class Scalar>
 constexpr bool is_below(Scalar x, Scalar high) {
   if constexpr (is_fixed_point_v<Scalar>) {
@@ -96,6 +96,18 @@ constexpr bool is_below(Scalar x, Scalar high) {
     return static_cast<Word>(x.raw()) < static_cast<Word>(high.raw());
   } else {
     return to_bits(x) < to_bits(high);
+  }
+}
+
+/// level <= x, level > 0; of a NaN nothing is said. One comparison of words too: a negative number has a
+/// negative one.
+template <class Scalar>
+constexpr bool reaches(Scalar x, Scalar level) {
+  if constexpr (is_fixed_point_v<Scalar>) {
+    return level <= x;
+  } else {
+    using Word = std::make_signed_t<FloatBits<Scalar>>;
+    return static_cast<Word>(to_bits(level)) <= static_cast<Word>(to_bits(x));
   }
 }
 
@@ -130,7 +142,7 @@ constexpr bool is_finite(Scalar x) {
   if constexpr (is_fixed_point_v<Scalar>) {
     return true;
   } else {
-    return abs(x) <= std::numeric_limits<Scalar>::max();
+    return to_bits(abs(x)) < to_bits(std::numeric_limits<Scalar>::infinity());
   }
 }
 

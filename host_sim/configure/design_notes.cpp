@@ -211,16 +211,17 @@ void add_calibration_note(const ControlDesign& design, std::vector<std::string>&
 
 void add_lead_note(const ControlDesign& design, std::vector<std::string>& notes) {
   constexpr const char* slow =
-      "The contact follows the drive only as it slides through its presliding distance. Until ";
+      "The contact follows the drive only as it slides through its presliding distance. ";
   if (design.contact_lead > 0.0) {
     notes.push_back(fmt::format(
-        "{}it has followed, the commanded ratio leads the target by up to {:.3g} times the error.",
+        "{}Until it has followed, the commanded ratio leads the target by up to {:.3g} times the "
+        "error.",
         slow, design.contact_lead));
   }
   if (design.contact_foresight) {
     notes.push_back(fmt::format(
-        "{}it has followed by a model of it, {:.3g} periods for that distance, the commanded ratio "
-        "leads the target.",
+        "{}By a model that takes {:.3g} periods for that distance, the drive overshoots until the "
+        "contact has followed.",
         slow, design.contact_foresight->presliding_periods));
   }
 }

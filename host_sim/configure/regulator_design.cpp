@@ -129,7 +129,8 @@ double least_ratio(double sliding_m_per_s, double full_m_per_s) {
 }
 
 /// The foresight of a slow contact, where the vibration is not observed; where the friction would take longer than
-/// the four periods in which the model comes to its target. None where every change of the drive excites the mode.
+/// the four periods in which the model comes to its target. None where every change of the drive excites the mode,
+/// nor for a force, whose readings tell the ratio only at the target.
 std::optional<ContactForesight> design_contact_foresight(const scene::Scene& scene,
                                                          const NominalPlant& plant,
                                                          const ControlDesign& design,
@@ -138,8 +139,8 @@ std::optional<ContactForesight> design_contact_foresight(const scene::Scene& sce
   constexpr double most_periods = 1024.0;
   constexpr double useful_ratio = 0.125;  // a command below it is not needed
   constexpr double most_left = 0.05;      // of the free vibration, by an overshoot to full drive
-  if (!may_be_slow(scene) || fed_forward.left > most_left || fed_forward.free_mode ||
-      !passes_an_overshoot(fed_forward.notch)) {
+  if (!may_be_slow(scene) || design.holds_force || fed_forward.left > most_left ||
+      fed_forward.free_mode || !passes_an_overshoot(fed_forward.notch)) {
     return std::nullopt;
   }
   const double sliding_m_per_s = scene.sliding.fastest_m_per_s();

@@ -9,14 +9,15 @@
 namespace sonoglide::control {
 
 /// In front of the contact of a drive that is fed forward. The friction ratio ρ of a contact that forgets little in a
-/// carrier period follows the commanded ratio ρc by dρ/dt = (1 − ρ/ρc)/tp (see ContactLead). After a
-/// restart, and a new target ρ* that holds the integral, the measured ratio is the start of a model m. From then on, per period T,
+/// carrier period follows the commanded ratio ρc by dρ/dt = (1 − ρ/ρc)/tp (see ContactLead). After a restart, and a new
+/// target ρ* that holds the integral, the measured ratio is the start of a model m. From then on, per period T,
 ///   w  = (ρ* − m)/4, limited to what full drive and no drive give: (1 − m/ρl) T/tp <= w <= (1 − m) T/tp
 ///   ρc = m/(1 − w tp/T)   the command that moves the contact by w; ρl or 1 where w is at its limit
 ///   m' = m + w
 /// so that the contact comes to its target by 1/4 of the rest in each period. No reading is fed back: what the
 /// natural mode adds to a reading does not come back to the drive. To the regulator the model is the target, so that
-/// its integral takes what the contact differs from the model by.
+/// its integral takes what the contact differs from the model by. To all that compare readings with commands the
+/// command is the regulator's: a contact on its way shows the model, not ρc. A target below ρl takes its place.
 ///
 /// Ratios on base 2. In fixed point 1 − w tp/T is off by less than 2^(exponent + 6) units of the last place, and
 /// nothing overflows that does not without it.
@@ -32,9 +33,9 @@ class ContactForesight : public RegulatorT {
   struct Parameters {
     [[no_unique_address]] typename RegulatorT::Parameters regulator;
     Scalar rise;                        ///< T/tp, in (0, 1/4]; 0: a prompt contact
-    Scalar fall;                        ///< T/(tp ρl) or, if that is less, 1/4
+    Scalar fall;                        ///< min(T/(tp ρl), 1/4)
     Scalar least;                       ///< ρl that full drive gives; at least 1/8
-    numeric::Split<Scalar> presliding;  ///< tp/(8 T), from 1/2 to 2^11
+    numeric::Split<Scalar> presliding;  ///< tp/(8 T), from 1/2 to 2^7
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
@@ -64,13 +65,14 @@ class ContactForesight : public RegulatorT {
   }
 
   bool target_changes(Scalar change) {
-    begins_ = RegulatorT::target_changes(change) || begins_;
-    return begins_;
+    const bool holds = RegulatorT::target_changes(change);
+    begins_ = holds || begins_;
+    return holds;
   }
 
   Scalar propose(Scalar target, Scalar measured) {
     if (rise_ == Scalar{}) {
-      return RegulatorT::propose(target, measured);
+      return followed_ = RegulatorT::propose(target, measured);
     }
     if (begins_) {
       model_ = numeric::clamp(measured, close(), whole());
@@ -78,24 +80,27 @@ class ContactForesight : public RegulatorT {
     }
     if (numeric::abs(target - model_) <= close()) {
       model_ = target;
-      return RegulatorT::propose(target, measured);
+      return followed_ = RegulatorT::propose(target, measured);
     }
     const Scalar before = model_;
     const Scalar command = move_to(target);
-    const Scalar ratio = RegulatorT::propose(before, measured);
-    return ratio + numeric::clamp(command - before, -ratio, whole() - ratio);
+    followed_ = RegulatorT::propose(before, measured);
+    return followed_ + numeric::clamp(command - before, -followed_, whole() - followed_);
   }
+
+  /// That of the last proposal without what is beyond it.
+  Scalar implied(Scalar /*ratio*/) const { return followed_; }
 
  private:
   static constexpr Scalar whole() { return numeric::from_real<Scalar>(0.5); }
-  /// To the target: the model is there.
+  /// Closer to the target than this, the model is taken to be there.
   static constexpr Scalar close() { return numeric::from_real<Scalar>(1.0 / 8192.0); }
 
   /// Moves the model by a period. @return the command that moves the contact so
   Scalar move_to(Scalar target) {
     const Scalar before = model_;
     const Scalar wanted = numeric::half(numeric::half(target - before));
-    // Of negative numbers: so rounded that the model never stands still.
+    // The product is of a negative number: it rounds down, so that the model never stands still.
     const Scalar rise = -numeric::rough_product(rise_, before - whole());
     if (rise <= wanted) {
       model_ = before + rise;
@@ -128,7 +133,8 @@ class ContactForesight : public RegulatorT {
   Scalar least_;
   numeric::Split<Scalar> presliding_;
   Scalar model_ = whole();
-  bool begins_ = true;  ///< the next measured ratio is where the model begins
+  Scalar followed_ = whole();  ///< the regulator's own command
+  bool begins_ = true;         ///< the next measured ratio is where the model begins
 };
 
 }  // namespace sonoglide::control

@@ -256,8 +256,8 @@ class FrictionTracking {
   /// Ratio of the map where the drive stands; a dip has that of no drive.
   Scalar mapped() const { return dips_ ? numeric::from_real<Scalar>(0.5) : mean_.commanded(); }
 
-  /// A reading is complete.
-  void compare(const FrictionReading<Scalar>& now) {
+  /// A reading is complete. Out of line: most periods only watch.
+  [[gnu::noinline]] void compare(const FrictionReading<Scalar>& now) {
     place_ = {now.requested, mean_.measured(), now.speed};
     const bool moved = elsewhere(place_, taken_at_);
     if (mean_.limited() && !dips_) {

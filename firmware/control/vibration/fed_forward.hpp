@@ -31,8 +31,14 @@ class FedForward : public VibrationPart<ScalarT> {
   template <class Shaper>
   static Request<Scalar> drive(Scalar requested, Shaper& shaper, Scalar ceiling) {
     const Scalar shaped = numeric::observe<signal::ShapedAmplitude>(shaper.shape(requested));
-    const bool clipped = shaped < Scalar{} || (ceiling <= shaped && requested < ceiling);
-    return {numeric::clamp(shaped, Scalar{}, ceiling), clipped ? Limit::actuator : Limit::none};
+    if (numeric::likely(numeric::is_below(shaped, ceiling))) {
+      return {shaped, Limit::none};
+    }
+    if (ceiling <= shaped) {
+      return {ceiling, requested < ceiling ? Limit::actuator : Limit::none};
+    }
+    return {numeric::clamp(shaped, Scalar{}, ceiling),
+            shaped < Scalar{} ? Limit::actuator : Limit::none};
   }
 };
 

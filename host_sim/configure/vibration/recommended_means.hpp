@@ -13,7 +13,7 @@ enum class ModeKind {
   slow,       ///< the friction itself moves the mass
   twice,      ///< beside twice the carrier
   multiple,   ///< beside a higher multiple of it
-  unquiet,    ///< fast too, and a ramp excites it by more than others
+  unquiet,    ///< from 3.2 to 3.5 times the carrier, where a ramp of 8 codes leaves most
   fast,       ///< a small part of its stiffness turns it by much in a period
   half_turn,  ///< its direction of rotation is unobservable
   other

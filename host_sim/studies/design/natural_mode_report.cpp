@@ -109,7 +109,7 @@ Advice mode_advice(const NaturalModeStudy& mode) {
 }
 
 /// Of the controller of damped_by_force.toml: float32 on a Cortex-M4F to Q31 on a Cortex-M3.
-constexpr const char* observer_cost = "1093 to 2072 instructions a period and 18 kB";
+constexpr const char* observer_cost = "1091 to 2072 instructions a period and 18 kB";
 
 Advice controller_advice(const NaturalModeStudy& mode) {
   const QuietDrive& best = mode.drives[mode.best_drive];

@@ -56,6 +56,7 @@ TYPED_TEST(EveryScalar, IsBelowHasBothEndsOfItsRange) {
     EXPECT_EQ(is_below(x, high), value >= 0.0 && x < high) << value;
     EXPECT_EQ(clamp_positive(x, high), clamp(x, TypeParam{}, high)) << value;
     EXPECT_EQ(is_negative(x), x < TypeParam{}) << value;
+    EXPECT_EQ(reaches(x, high), high <= x) << value;
   }
 }
 
@@ -66,6 +67,15 @@ TEST(FloatScalar, IsBelowIsFalseForTheNegativeZeroAndNan) {
   EXPECT_TRUE(is_negative(-0.0F) && is_negative(-0.0));
   EXPECT_TRUE(std::signbit(clamp_positive(-0.0F, 0.5F)));
   EXPECT_TRUE(std::isnan(clamp_positive(std::numeric_limits<float>::quiet_NaN(), 0.5F)));
+}
+
+TEST(FloatScalar, ReachesIsTheComparisonAtTheEndsToo) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double x : {-infinity, -1e300, -0x1p-1074, -0.0, 0.0, 0x1p-1074, 1e300, infinity}) {
+    for (const double level : {0x1p-1074, 0.5, 1e300, infinity}) {
+      EXPECT_EQ(reaches(x, level), level <= x) << x << " " << level;
+    }
+  }
 }
 
 TYPED_TEST(EveryScalar, SplitLeavesZeroAndNegativeNumbersWhole) {
@@ -151,7 +161,10 @@ TYPED_TEST(FloatScalar, IsFiniteKnowsTheOthers) {
   EXPECT_FALSE(is_finite(Limits::infinity()));
   EXPECT_FALSE(is_finite(-Limits::infinity()));
   EXPECT_FALSE(is_finite(Limits::quiet_NaN()));
+  EXPECT_FALSE(is_finite(-Limits::quiet_NaN()));
   EXPECT_TRUE(is_finite(Limits::max()));
+  EXPECT_TRUE(is_finite(Limits::lowest()));
+  EXPECT_TRUE(is_finite(-Limits::denorm_min()));
 }
 
 TYPED_TEST(FloatScalar, CodesStopAtTheEndsOfTheConverter) {

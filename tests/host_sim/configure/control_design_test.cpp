@@ -356,6 +356,13 @@ TEST(ControlDesignTest, ForeseesNoContactBehindANotchThatTakesBackNorInFrontOfAF
   EXPECT_FALSE(design_control(with_presliding_periods(20.0)).contact_foresight);
 }
 
+TEST(ControlDesignTest, ForeseesNoContactOfAForce) {
+  scene::Scene scene = slow_beside_a_multiple(20.0);
+  scene.controller->target_friction_ratio.clear();
+  scene.controller->target_friction_force_N = {{0.0, 0.5 * nominal_plant(scene).friction_N}};
+  EXPECT_FALSE(design_control(scene).contact_foresight);
+}
+
 /// Steps until a reading is that of a carrier period in which an answer acts, counted one by one.
 int steps_to_the_reading(int every, int drive_delay, int sensor_delay) {
   const int first_driven =

@@ -10,6 +10,7 @@
 
 #include "firmware/control/feedback/adaptive_regulator.hpp"
 #include "firmware/control/feedback/integral_regulator.hpp"
+#include "firmware/control/limits/stuck_detector.hpp"
 #include "scalars.hpp"
 
 namespace sonoglide::control::contact_foresight_test {
@@ -125,7 +126,7 @@ TYPED_TEST(ContactForesightTest, KeepsTheCommandInItsRange) {
     const double commanded = propose<TypeParam>(regulator, target, 1.2 * part(generator) - 0.1);
     ASSERT_GE(commanded, 0.0);
     ASSERT_LE(commanded, 1.0);
-    regulator.accept(i % 3 == 0, i % 11 == 0);
+    regulator.accept(commanded <= 0.0 || i % 3 == 0, 1.0 <= commanded || i % 11 == 0);
   }
 }
 
@@ -190,6 +191,37 @@ TYPED_TEST(ContactForesightTest, SettlesSoonerThanTheRegulatorAlone) {
       EXPECT_LT(foreseen, (stiffness == 1.0 ? 0.65 : 1.0) * alone)
           << step.from << " to " << step.to << ", " << stiffness;
     }
+  }
+}
+
+/// A converter of so few bits that a slow contact stays within a code for longer than the detector grants.
+TYPED_TEST(ContactForesightTest, LeavesACoarseSensorOfASlowContactUnsuspected) {
+  constexpr double code = 1.0 / 16.0;
+  constexpr std::uint16_t granted = 11;
+  for (const double change : {-0.15, -0.08, -0.03, 0.03, 0.08, 0.15}) {
+    auto regulator = TestFixture::foreseen();
+    StuckDetector<TypeParam> detector({granted});
+    double target = 0.6;
+    begin<TypeParam>(regulator, 1.0, target);
+    double ratio = 1.0;
+    double overshot = 0.0;
+    std::vector<TypeParam> implied(delay, scaled<TypeParam>(0.5 * target));
+    for (int i = 0; i < 800; ++i) {
+      if (i == 400) {
+        regulator.target_changes(scaled<TypeParam>(0.5 * change));
+        target += change;
+      }
+      const double reading = code * std::round(ratio / code);
+      const auto half = scaled<TypeParam>(0.5 * reading);
+      ASSERT_FALSE(detector.stuck(half, half, implied[implied.size() - delay], true))
+          << change << ", period " << i;
+      const double commanded = propose<TypeParam>(regulator, target, reading);
+      implied.push_back(regulator.implied(scaled<TypeParam>(0.5 * commanded)));
+      regulator.accept(commanded <= least_ratio, 1.0 <= commanded);
+      overshot = std::max(overshot, std::abs(commanded - 2.0 * numeric::to_real(implied.back())));
+      ratio = followed(ratio, std::max(least_ratio, commanded), presliding_periods);
+    }
+    EXPECT_GT(overshot, 0.25);  // by which a detector is told
   }
 }
 
