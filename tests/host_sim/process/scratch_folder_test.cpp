@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -104,7 +105,8 @@ TEST_F(ScratchFolderTest, NobodyLosesItsFolderToASweeper) {
         fs::create_directory(folder.path() / "new");
         std::ofstream(folder.path() / "new/file") << "text";
         _exit(fs::exists(folder.path() / "new/file") ? 0 : 2);
-      } catch (const std::exception&) {
+      } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
         _exit(1);
       }
     }
