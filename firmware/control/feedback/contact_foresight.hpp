@@ -17,7 +17,7 @@ namespace sonoglide::control {
 /// so that the contact comes to its target by 1/4 of the rest in each period. No reading is fed back: what the
 /// natural mode adds to a reading does not come back to the drive. To the regulator the model is the target, so that
 /// its integral takes what the contact differs from the model by. To all that compare readings with commands the
-/// command is the regulator's: a contact on its way shows the model, not ρc. A target below ρl takes its place.
+/// command is the regulator's: a contact on its way shows the model, not ρc. Where ρ* < ρl, the command is at least ρ*.
 ///
 /// Ratios on base 2. In fixed point 1 − w tp/T is off by less than 2^(exponent + 6) units of the last place, and
 /// nothing overflows that does not without it.
