@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/control/parts.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -53,18 +54,16 @@ class Controller {
   /// Begins afresh, from any state, with calibration where there is one. A target that is set
   /// already becomes one here, as if it were set next: until then no drive is asked for.
   void start() {
-    const bool driven = state_ == State::running || state_ == State::limited;
-    Scalar target = target_;
-    aim_.give_back(target);
-    target_ = whole_ratio();
+    const Scalar target = aim_.give_back(target_);
+    target_ = whole_ratio<Scalar>;
     restart_parts(friction_, shaper_);
     regulator_.restart(target_);
     restart_parts(standstill_, stuck_, plausibility_, watch_, foresight_, samples_, relearning_);
     vibration_.restart(!runs(state_));
     backwards_ = false;
     requested_ = Scalar{};
-    if (!driven || friction_.learning()) {
-      commanded_ = whole_ratio();  // else the reading may stand still, as the command does
+    if (!drives(state_) || friction_.learning()) {
+      commanded_ = whole_ratio<Scalar>;  // else the reading may stand still, as the command does
     }
     followed_ = true;
     fault_ = Fault::none;
@@ -83,8 +82,7 @@ class Controller {
 
   /// A step in which the drive is at zero, whatever is asked for.
   Command rest() {
-    Command command{DriveCommand<Scalar>{Scalar{}, whole_ratio(), State::off, Limit::none,
-                                         Fault::none, Settling::pending}};
+    Command command{no_drive<Scalar>(State::off, Limit::none, Fault::none)};
     vibration_.after(command);
     return command;
   }
@@ -96,7 +94,7 @@ class Controller {
       return;
     }
     aim_.take(target, friction_.believed(configured_friction_), level_);
-    const Scalar ratio = numeric::clamp_positive(target, whole_ratio());
+    const Scalar ratio = numeric::clamp_positive(target, whole_ratio<Scalar>);
     if (ratio != target_) {
       regulator_.target_changes(ratio - target_);
       watch_.retarget();
@@ -126,11 +124,6 @@ class Controller {
 
  private:
   using Request = control::Request<Scalar>;
-  static constexpr Scalar whole_ratio() { return numeric::from_real<Scalar>(0.5); }
-  /// Of a ratio of 1 or more: it needs no drive.
-  static constexpr bool is_whole(Scalar half_ratio) {
-    return numeric::reaches(half_ratio, whole_ratio());
-  }
 
   DriveCommand<Scalar> answer(const Measurement& measurement, Fault unusable) {
     if (!runs(state_)) {
@@ -176,18 +169,17 @@ class Controller {
   }
 
   DriveCommand<Scalar> undriven(Limit limit) const {
-    return {Scalar{}, whole_ratio(), state_, limit, fault_, Settling::pending};
+    return no_drive<Scalar>(state_, limit, fault_);
   }
 
   /// That of the target, with the sign of a sample; without a drive that of the sample.
   Scalar expected_friction(const Measurement& measurement, Limit limit) const {
-    const bool driven = (state_ == State::running || state_ == State::limited) &&
-                        limit != Limit::speed_floor && limit != Limit::velocity_at_rail;
+    const bool driven =
+        drives(state_) && limit != Limit::speed_floor && limit != Limit::velocity_at_rail;
     if (PartsT::Force::present && !driven) {
       return measurement.friction_force;
     }
-    const Scalar force =
-        is_whole(target_) ? level_.force() : numeric::twice(target_) * level_.force();
+    const Scalar force = level_.force_at(target_);
     return backwards_ ? -force : force;
   }
 
@@ -195,7 +187,7 @@ class Controller {
   DriveCommand<Scalar> calibrate(const Measurement& measurement) {
     const bool slow = numeric::abs(measurement.sliding_velocity) < speed_floor_;
     const DriveCommand<Scalar> silent = undriven(slow ? Limit::speed_floor : Limit::none);
-    backwards_ = measurement.sliding_velocity < Scalar{};
+    backwards_ = numeric::is_negative(measurement.sliding_velocity);
     friction_.learn(measurement.friction_force, measurement.sliding_velocity, slow);
     if (friction_.learning()) {
       return silent;
@@ -226,7 +218,7 @@ class Controller {
   void interrupt() {
     regulator_.hold();
     plausibility_.restart();
-    interrupt_relearning();
+    relearning_.interrupt(feedforward_, level_);
   }
 
   /// Answer below the speed floor, or above the range of the speed's converter: feedback waits, and the
@@ -243,19 +235,18 @@ class Controller {
     if constexpr (!PartsT::Force::present) {
       return regulate(target_, speed);
     } else {
+      const Scalar velocity = measurement.sliding_velocity;
       const Scalar force = friction_.without_offset(measurement.friction_force);
       const Scalar along = backwards_ ? -force : force;
       const Scalar measured = level_.half_ratio(along);
-      if (!plausibility_.plausible(aim_.judged(measured), measurement.sliding_velocity)) {
-        return trip(plausibility_.stood_still(measured, measurement.sliding_velocity)
-                        ? Fault::velocity_stuck
-                        : Fault::measurement_implausible);
+      const Fault implausible = plausibility_.judge(aim_.judged(measured), velocity);
+      if (implausible != Fault::none) {
+        return trip(implausible);
       }
       if (stuck_.stuck(measurement.friction_force, measured, commanded_, followed_)) {
         return trip(Fault::measurement_stuck);
       }
-      vibration_.sense(measured, numeric::abs(measurement.sliding_velocity), backwards_,
-                       feedforward_);
+      vibration_.sense(measured, numeric::abs(velocity), backwards_, feedforward_);
       const Task task = next_task({along, measured, speed, commanded_, requested_, followed_});
       if (task != Task::regulate) {
         regulator_.hold();
@@ -270,14 +261,8 @@ class Controller {
     if (!is_whole(target_)) {
       return relearning_.next(reading, feedforward_);
     }
-    interrupt_relearning();
+    relearning_.interrupt(feedforward_, level_);
     return Task::regulate;
-  }
-
-  void interrupt_relearning() {
-    if (relearning_.interrupt()) {
-      relearning_.adapt(feedforward_, level_);
-    }
   }
 
   /// Answer in a pause of the drive.
@@ -290,7 +275,7 @@ class Controller {
       relearning_.align(regulator_, feedforward_, speed, requested_);
       return {requested_, Limit::none};
     }
-    commanded_ = whole_ratio();
+    commanded_ = whole_ratio<Scalar>;
     return slewed({relearning_.request(speed), Limit::none});
   }
 
@@ -298,7 +283,7 @@ class Controller {
   /// next, in which the map adapts.
   Request learn_anew() {
     const Scalar before = level_.force();
-    const Scalar target_force = numeric::twice(target_) * before;
+    const Scalar target_force = level_.force_at(target_);
     take_friction_force(relearning_.force(before));
     relearning_.correct(regulator_, {target_, commanded_, before, level_.half_ratio(target_force),
                                      watch_.limit_named() != Limit::not_settling});
@@ -371,8 +356,7 @@ class Controller {
     if constexpr (PartsT::Vibration::observed) {
       driven = ceiling_.held(driven, PartsT::Vibration::at_full_drive);
     }
-    const auto [amplitude, limit] = driven;
-    return conclude(amplitude, request.limit == Limit::none ? limit : request.limit);
+    return conclude(driven.amplitude, request.limit == Limit::none ? driven.limit : request.limit);
   }
 
   DriveCommand<Scalar> conclude(Scalar amplitude, Limit limit) {
@@ -405,11 +389,12 @@ class Controller {
   [[no_unique_address]] typename PartsT::Samples samples_;
   FrictionLevel<Scalar> level_;
   [[no_unique_address]] typename PartsT::Target aim_;
-  Scalar target_ = whole_ratio();     ///< friction ratio on base 2
-  Scalar commanded_ = whole_ratio();  ///< friction ratio, target and feedback together, on base 2
-  Scalar requested_{};                ///< amplitude before shaping, or vibration velocity
-  bool backwards_ = false;            ///< the sliding
-  bool followed_ = true;              ///< the drive could follow the last command
+  Scalar target_ = whole_ratio<Scalar>;  ///< friction ratio on base 2
+  Scalar commanded_ =
+      whole_ratio<Scalar>;  ///< friction ratio, target and feedback together, on base 2
+  Scalar requested_{};      ///< amplitude before shaping, or vibration velocity
+  bool backwards_ = false;  ///< the sliding
+  bool followed_ = true;    ///< the drive could follow the last command
   State state_ = State::off;
   Fault fault_ = Fault::none;
 };

@@ -3,6 +3,7 @@
 
 #include "firmware/control/friction/friction_level.hpp"
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -31,8 +32,8 @@ class RatioTarget {
   static constexpr void follow(const Believed& /*believed*/, const FrictionLevel<Scalar>& /*level*/,
                                const Scalar& /*ratio*/) {}
 
-  /// Makes of the ratio the target as it was taken, and forgets that.
-  static constexpr void give_back(const Scalar& /*ratio*/) {}
+  /// The target as it was taken, of which the ratio was made; forgets it.
+  static constexpr const Scalar& give_back(const Scalar& ratio) { return ratio; }
 
   /// Of a measured ratio, the part by which a broken sensor is told.
   static constexpr const Scalar& judged(const Scalar& measured) { return measured; }
@@ -99,22 +100,21 @@ class ForceTarget {
     const Scalar least = numeric::max(given_, FrictionLevel<Scalar>::smallest());
     level = FrictionLevel<Scalar>(numeric::max(believed(), least));
     if (given_ == Scalar{}) {
-      ratio = numeric::from_real<Scalar>(0.5);
+      ratio = whole_ratio<Scalar>;
       return;
     }
     ratio = numeric::min(level.half_ratio(given_), largest_driven());
     inverse_ = numeric::from_real<Scalar>(0x1p-6) / numeric::max(ratio, least_ratio());
   }
 
-  void give_back(Scalar& ratio) {
-    if (force_) {
-      ratio = given_;
-      given_ = {};
-    }
+  Scalar give_back(const Scalar& ratio) {
+    const Scalar given = force_ ? given_ : ratio;
+    given_ = {};
+    return given;
   }
 
   Scalar judged(const Scalar& measured) const {
-    return force_ ? numeric::min(measured, numeric::from_real<Scalar>(0.5)) : measured;
+    return force_ ? numeric::min(measured, whole_ratio<Scalar>) : measured;
   }
 
   Scalar reading(const Scalar& measured, const Scalar& ratio, const Scalar& commanded) const {

@@ -74,8 +74,7 @@ void ControlRun::label(Period& period) const {
   period.settling = command.settling;
   period.commanded_ratio = command.commanded_ratio;
   period.bias_N = command.bias_N;
-  const bool held =
-      command.state == control::State::running || command.state == control::State::limited;
+  const bool held = control::drives(command.state);
   if (observes_vibration_ && held && (of_force || period.target < 1.0)) {
     period.wanted_vibration_m_per_s =
         record_.design.vibration_map(nominal_friction_N_)

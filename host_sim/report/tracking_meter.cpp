@@ -10,8 +10,7 @@ namespace {
 constexpr int settling_periods = 10;
 
 bool is_free(const loop::Period& period) {
-  const bool driven =
-      period.state == control::State::running || period.state == control::State::limited;
+  const bool driven = control::drives(period.state);
   const bool limited =
       period.limit == control::Limit::actuator || period.limit == control::Limit::slew ||
       period.limit == control::Limit::voltage || period.limit == control::Limit::current ||

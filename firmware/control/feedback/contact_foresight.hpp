@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -75,7 +76,7 @@ class ContactForesight : public RegulatorT {
       return followed_ = RegulatorT::propose(target, measured);
     }
     if (begins_) {
-      model_ = numeric::clamp(measured, close(), whole());
+      model_ = numeric::clamp(measured, close(), whole_ratio<Scalar>);
       begins_ = false;
     }
     if (numeric::abs(target - model_) <= close()) {
@@ -85,14 +86,14 @@ class ContactForesight : public RegulatorT {
     const Scalar before = model_;
     const Scalar command = move_to(target);
     followed_ = RegulatorT::propose(before, measured);
-    return followed_ + numeric::clamp(command - before, -followed_, whole() - followed_);
+    return followed_ +
+           numeric::clamp(command - before, -followed_, whole_ratio<Scalar> - followed_);
   }
 
   /// That of the last proposal without what is beyond it.
   Scalar implied(Scalar /*ratio*/) const { return followed_; }
 
  private:
-  static constexpr Scalar whole() { return numeric::from_real<Scalar>(0.5); }
   /// Closer to the target than this, the model is taken to be there.
   static constexpr Scalar close() { return numeric::from_real<Scalar>(1.0 / 8192.0); }
 
@@ -101,10 +102,10 @@ class ContactForesight : public RegulatorT {
     const Scalar before = model_;
     const Scalar wanted = numeric::half(numeric::half(target - before));
     // The product is of a negative number: it rounds down, so that the model never stands still.
-    const Scalar rise = -numeric::rough_product(rise_, before - whole());
+    const Scalar rise = -numeric::rough_product(rise_, before - whole_ratio<Scalar>);
     if (rise <= wanted) {
       model_ = before + rise;
-      return whole();
+      return whole_ratio<Scalar>;
     }
     const Scalar least = numeric::min(least_, target);
     const Scalar fall = numeric::rough_product(fall_, least - before);
@@ -122,19 +123,20 @@ class ContactForesight : public RegulatorT {
                         numeric::limited_lift(numeric::rough_product(step, presliding_.mantissa),
                                               presliding_.exponent);
     if (part <= close()) {
-      return whole();
+      return whole_ratio<Scalar>;
     }
     const auto quotient = numeric::quotient(numeric::floating(model), numeric::floating(part));
-    return numeric::min(whole(), numeric::limited_value(numeric::rescaled(quotient, -4)));
+    return numeric::min(whole_ratio<Scalar>,
+                        numeric::limited_value(numeric::rescaled(quotient, -4)));
   }
 
   Scalar rise_;
   Scalar fall_;
   Scalar least_;
   numeric::Split<Scalar> presliding_;
-  Scalar model_ = whole();
-  Scalar followed_ = whole();  ///< the regulator's own command
-  bool begins_ = true;         ///< the next measured ratio is where the model begins
+  Scalar model_ = whole_ratio<Scalar>;
+  Scalar followed_ = whole_ratio<Scalar>;  ///< the regulator's own command
+  bool begins_ = true;                     ///< the next measured ratio is where the model begins
 };
 
 }  // namespace sonoglide::control

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -52,7 +53,7 @@ class ContactLead : public RegulatorT {
     const Scalar error = numeric::rough_product(target, target - measured);
     const Scalar more =
         numeric::limited_lift(numeric::rough_product(error, lead_.mantissa), lead_.exponent);
-    return ratio + numeric::clamp(more, -ratio, numeric::from_real<Scalar>(0.5) - ratio);
+    return ratio + numeric::clamp(more, -ratio, whole_ratio<Scalar> - ratio);
   }
 
  private:

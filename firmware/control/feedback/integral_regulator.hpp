@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/control/interface/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/headroom.hpp"
@@ -127,8 +128,8 @@ class IntegralRegulator {
     error_ = numeric::observe<signal::RatioError>(reference_ - measured);
     proposed_ =
         held_ == 0 ? integral_ + numeric::accumulated_product(parameters_.gain, error_) : integral_;
-    return numeric::observe<signal::CommandedRatio>(numeric::clamp_positive(
-        target + numeric::rounded<Scalar>(proposed_), numeric::from_real<Scalar>(0.5)));
+    return numeric::observe<signal::CommandedRatio>(
+        numeric::clamp_positive(target + numeric::rounded<Scalar>(proposed_), whole_ratio<Scalar>));
   }
 
   /// Keeps the proposed integral, unless the command stood at a bound and the error pushes further.

@@ -3,6 +3,7 @@
 
 #include "firmware/control/feedback/integral_regulator.hpp"
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -83,7 +84,7 @@ class ScalingRegulator : public IntegralRegulator<Scalar, MaxDelay> {
   /// About the ratio of which V is the scaled velocity, V being nearly proportional to 1/ratio.
   Scalar implied(Scalar ratio) const {
     return scales_ ? numeric::min(numeric::limited_lift(numeric::rough_product(ratio, inverse_), 1),
-                                  most_ratio())
+                                  whole_ratio<Scalar>)
                    : ratio;
   }
 
@@ -92,7 +93,6 @@ class ScalingRegulator : public IntegralRegulator<Scalar, MaxDelay> {
   static constexpr Scalar one() { return numeric::from_real<Scalar>(0.5); }
   static constexpr Scalar least() { return numeric::from_real<Scalar>(0.25); }
   static constexpr Scalar most() { return numeric::from_real<Scalar>(0.999); }
-  static constexpr Scalar most_ratio() { return numeric::from_real<Scalar>(0.5); }
 
   bool scales_;
   Scalar scale_ = one();

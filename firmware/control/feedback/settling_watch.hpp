@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
 
@@ -85,13 +86,14 @@ class SettlingWatch {
   template <class VelocityOf>
   Scalar implied_ratio(Scalar target, Scalar requested, Scalar velocity,
                        const VelocityOf& velocity_of) const {
-    constexpr Scalar whole = numeric::from_real<Scalar>(0.5);
     if (requested < velocity) {
       return velocity_of(parameters_.agreement * target) < velocity ? Scalar{} : target;
     }
-    if (target < whole * parameters_.agreement) {
-      const Scalar agreeing = numeric::half(target) / parameters_.agreement;
-      return velocity < velocity_of(numeric::twice(agreeing)) ? Scalar{} : target;
+    if (target < whole_ratio<Scalar> * parameters_.agreement) {
+      // The quotient rounds: a target just below would come out above 1.
+      const Scalar agreeing = numeric::min(
+          numeric::twice(numeric::half(target) / parameters_.agreement), whole_ratio<Scalar>);
+      return velocity < velocity_of(agreeing) ? Scalar{} : target;
     }
     return target;
   }

@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/control/interface/signals.hpp"
 #include "firmware/numeric/accumulator.hpp"
 #include "firmware/numeric/floating.hpp"
@@ -50,6 +51,11 @@ class FrictionLevel {
     } else {
       return level_;
     }
+  }
+
+  /// Of a ratio in [0, 1/2].
+  Scalar force_at(Scalar half_ratio) const {
+    return is_whole(half_ratio) ? force() : numeric::twice(half_ratio) * force();
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "firmware/control/friction/steady_mean.hpp"
 #include "firmware/control/friction/tracked_constants.hpp"
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/numeric/floating.hpp"
 #include "firmware/numeric/headroom.hpp"
 #include "firmware/numeric/scalar.hpp"
@@ -66,16 +67,19 @@ class FrictionTracking {
   void restart() {
     constants_.restart();
     taken_at_ = {};
-    interrupt();
+    dips_ = false;
+    phase_ = Phase::start;
   }
 
-  /// Ends a dip; where Fc is too uncertain another one begins.
-  /// @return true if `adapt` would have been next
-  bool interrupt() {
+  /// Ends a dip, with `adapt` if that would have been next; where Fc is too uncertain another one begins.
+  template <class Feedforward>
+  [[gnu::noinline]] void interrupt(Feedforward& feedforward, const FrictionLevel<Scalar>& level) {
     const bool learnt = phase_ == Phase::adapt;
     dips_ = false;
     phase_ = Phase::start;
-    return learnt;
+    if (learnt) {
+      adapt(feedforward, level);
+    }
   }
 
   bool pausing() const { return dips_; }
@@ -254,7 +258,7 @@ class FrictionTracking {
   }
 
   /// Ratio of the map where the drive stands; a dip has that of no drive.
-  Scalar mapped() const { return dips_ ? numeric::from_real<Scalar>(0.5) : mean_.commanded(); }
+  Scalar mapped() const { return dips_ ? whole_ratio<Scalar> : mean_.commanded(); }
 
   /// A reading is complete. Out of line: most periods only watch.
   [[gnu::noinline]] void compare(const FrictionReading<Scalar>& now) {

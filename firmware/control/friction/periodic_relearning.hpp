@@ -70,7 +70,8 @@ class NoRelearning : public RelearningPart<Scalar> {
   explicit NoRelearning(const Parameters&) {}
 
   static constexpr void restart() {}
-  static constexpr bool interrupt() { return false; }
+  template <class Feedforward>
+  static constexpr void interrupt(const Feedforward&, const FrictionLevel<Scalar>&) {}
   static constexpr bool pausing() { return false; }
   template <class Feedforward>
   static constexpr Task next(const FrictionReading<Scalar>&, const Feedforward&) {
@@ -125,12 +126,13 @@ class PeriodicRelearning : public RelearningPart<Scalar> {
     phase_ = Phase::idle;
   }
 
-  /// Ends a pause.
-  /// @return true if `adapt` would have been next
-  bool interrupt() {
-    const bool learnt = phase_ == Phase::slid && count_ == learnt_after();
+  /// Ends a pause, with `adapt` if that would have been next.
+  template <class Feedforward>
+  void interrupt(Feedforward& feedforward, const FrictionLevel<Scalar>& level) {
+    if (phase_ == Phase::slid && count_ == learnt_after()) {
+      this->adapt(feedforward, level);
+    }
     phase_ = Phase::idle;
-    return learnt;
   }
 
   bool pausing() const { return phase_ != Phase::idle; }

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/control/interface/ratio.hpp"
+
 namespace sonoglide::control {
 
 enum class State : std::uint8_t {
@@ -19,6 +21,11 @@ enum class State : std::uint8_t {
 constexpr bool runs(State state) {
   // & and not &&: the compiler merges both comparisons into one.
   return (state != State::off) & (state != State::fault);
+}
+
+/// Whether a drive acts for the target, as far as a limit lets it.
+constexpr bool drives(State state) {
+  return state == State::running || state == State::limited;
 }
 
 /// What keeps the friction ratio from its target; the controller runs on.
@@ -90,6 +97,11 @@ struct DriveCommand {
   Fault fault;
   Settling settling;
 };
+
+template <class Scalar>
+constexpr DriveCommand<Scalar> no_drive(State state, Limit limit, Fault fault) {
+  return {Scalar{}, whole_ratio<Scalar>, state, limit, fault, Settling::pending};
+}
 
 /// Of a unit that observes the vibration. At resonance its amplitude is in [-1, 1]: below 0 the
 /// phase is turned by π.

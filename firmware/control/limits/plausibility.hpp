@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "firmware/control/interface/drive_command.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::control {
@@ -39,24 +40,21 @@ class Plausibility {
   /// One call for each reading at a sliding that is fast enough.
   /// @param half_ratio  measured friction ratio on base 2
   /// @param velocity    of the same sample, not 0
-  /// @return false once more readings in a row than are granted were outside
-  bool plausible(Scalar half_ratio, Scalar velocity) {
+  /// @return none, or once more readings in a row than are granted were outside: velocity_stuck where friction
+  ///         pulls at the very velocity at which it resisted, else measurement_implausible
+  Fault judge(Scalar half_ratio, Scalar velocity) {
     if (numeric::likely(numeric::is_below(half_ratio, highest()) ||
                         (lowest() < half_ratio && half_ratio <= Scalar{}))) {
       outside_ = 0;
       velocity_ = velocity;
-      return true;
+      return Fault::none;
     }
     if (outside_ < parameters_.periods) {
       ++outside_;
-      return true;
+      return Fault::none;
     }
-    return false;
-  }
-
-  /// Of an implausible reading: friction pulls at the very velocity at which it resisted.
-  bool stood_still(Scalar half_ratio, Scalar velocity) const {
-    return half_ratio < Scalar{} && velocity == velocity_;
+    return half_ratio < Scalar{} && velocity == velocity_ ? Fault::velocity_stuck
+                                                          : Fault::measurement_implausible;
   }
 
  private:

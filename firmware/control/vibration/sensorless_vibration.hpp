@@ -7,6 +7,7 @@
 #include "firmware/control/interface/drive_command.hpp"
 #include "firmware/control/interface/measurement.hpp"
 #include "firmware/control/interface/part_name.hpp"
+#include "firmware/control/interface/ratio.hpp"
 #include "firmware/control/vibration/mode_damping.hpp"
 #include "firmware/control/vibration/reading_lag.hpp"
 #include "firmware/control/vibration/sensorless_observer.hpp"
@@ -82,8 +83,8 @@ class SensorlessVibration : public ModeDamping<ScalarT, MaxDelay, 2, SensorlessO
   /// Takes the velocity that the ratio stands for without the lag of sensor and contact.
   template <class Feedforward>
   void sense(Scalar measured, Scalar speed, bool backwards, const Feedforward& feedforward) {
-    constexpr Scalar whole = numeric::from_real<Scalar>(0.5);
-    const Scalar ratio = numeric::clamp(reading_.lag_compensated(measured), Scalar{}, whole);
+    const Scalar ratio =
+        numeric::clamp(reading_.lag_compensated(measured), Scalar{}, whole_ratio<Scalar>);
     if (!(Scalar{} < speed)) {
       return;
     }

@@ -44,8 +44,7 @@ RecommendedMeans recommended_means(double natural_per_carrier, bool along) {
   means.kind = kind_of(natural_per_carrier, along);
   means.sensorless = means.kind == ModeKind::slow || means.kind == ModeKind::other;
   means.biased = means.kind == ModeKind::slow || means.kind == ModeKind::slowest;
-  means.ramped = !means.sensorless && !means.biased;
-  means.codes_per_period = means.ramped ? codes_per_period(means.kind) : 1;
+  means.codes_per_period = means.ramped() ? codes_per_period(means.kind) : 1;
   means.shaping_range = means.kind == ModeKind::unquiet ? unquiet_range : 0.0;
   return means;
 }

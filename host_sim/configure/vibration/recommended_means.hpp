@@ -23,9 +23,11 @@ struct RecommendedMeans {
   ModeKind kind = ModeKind::other;
   bool sensorless = false;  ///< controller.vibration = "damped"
   bool biased = false;      ///< drive.bias_limit_N
-  bool ramped = false;      ///< drive.interpolation = "linear"
   int codes_per_period = 1;
   double shaping_range = 0.0;  ///< controller.shaping = "robust" for it; 0: as the design chooses
+
+  /// drive.interpolation = "linear".
+  bool ramped() const { return !sensorless && !biased; }
 };
 
 /// Natural over carrier frequency, below which the friction itself moves the mass.

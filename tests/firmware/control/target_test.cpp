@@ -74,9 +74,7 @@ TYPED_TEST(Targets, AForceIsARatioOfTheFrictionBelievedOrOfItself) {
     EXPECT_NEAR(this->real(level.force()), whole, rounding * whole);
     EXPECT_NEAR(this->real(ratio), 0.5 * force / whole, rounding);
     EXPECT_TRUE(ratio < scaled<TypeParam>(0.5));
-    TypeParam given = ratio;
-    target.give_back(given);
-    EXPECT_TRUE(given == scaled<TypeParam>(force));
+    EXPECT_TRUE(target.give_back(ratio) == scaled<TypeParam>(force));
   }
 }
 

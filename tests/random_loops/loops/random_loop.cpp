@@ -303,7 +303,7 @@ void write_drive(SceneText& text, const RandomLoop& loop, Vibration vibration) {
     text.number("bias_limit_N", 2.0 * friction_N(loop) +
                                     0.056 * loop.mode_per_carrier * loop.max_force_amplitude_N);
   }
-  if (vibration == Vibration::all_means && means_for(loop).ramped) {
+  if (vibration == Vibration::all_means && means_for(loop).ramped()) {
     text.word("interpolation", "linear");
     text.line(fmt::format("codes_per_period = {}", means_for(loop).codes_per_period));
   }

@@ -159,5 +159,17 @@ TYPED_TEST(SettlingWatchTest, ImpliesTheTargetByAVelocityThatAgrees) {
   EXPECT_NEAR(implied(0.9, 1.0), 0.9, 1e-6);  // 5/4 of it is above 1
 }
 
+/// However the target is divided by 4/5, no ratio above 1 is looked up.
+TYPED_TEST(SettlingWatchTest, LooksUpNoRatioAbove1) {
+  const auto whole = scaled<TypeParam>(0.5);
+  for (int step = 0; step < 4096; ++step) {
+    const auto half_target = scaled<TypeParam>(0.4 - 1e-6 * step);
+    this->watch_.implied_ratio(half_target, whole, TypeParam{}, [&](TypeParam half_ratio) {
+      EXPECT_FALSE(whole < half_ratio) << step;
+      return TypeParam{};
+    });
+  }
+}
+
 }  // namespace
 }  // namespace sonoglide::control::settling_watch_test

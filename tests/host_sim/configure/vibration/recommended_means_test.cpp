@@ -50,7 +50,7 @@ TEST(RecommendedMeansTest, AreTheFirstRowOfTheTableThatHolds) {
     EXPECT_EQ(found.kind, row.kind) << row.mode;
     EXPECT_EQ(found.sensorless, row.sensorless) << row.mode;
     EXPECT_EQ(found.biased, row.biased) << row.mode;
-    EXPECT_EQ(found.ramped, row.codes > 1) << row.mode;
+    EXPECT_EQ(found.ramped(), row.codes > 1) << row.mode;
     EXPECT_EQ(found.codes_per_period, row.codes) << row.mode;
     EXPECT_EQ(found.shaping_range, row.range) << row.mode;
     EXPECT_FALSE(reason(found.kind).empty());
