@@ -49,7 +49,7 @@ Document::Document(const Source& source, const std::vector<std::string>& overrid
     apply_override(overrides[i], i + 1);
   }
   for (std::size_t i = 0; i < varied.size(); ++i) {
-    vary(varied[i], overrides.size() + i + 1, i);
+    vary(varied[i], i);
   }
   place_true_values();
 }
@@ -131,8 +131,8 @@ void Document::remove(const OverriddenKey& target) {
   }
 }
 
-void Document::vary(const std::string& path, std::size_t ordinal, std::size_t index) {
-  overridden_entry(parse_overridden_key(path, ordinal)).varied = index;
+void Document::vary(const std::string& path, std::size_t index) {
+  overridden_entry(parse_overridden_key(path, {"--vary", index + 1, 1})).varied = index;
 }
 
 void Document::place_true_values() {

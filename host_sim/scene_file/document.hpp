@@ -17,7 +17,7 @@
 
 namespace sonoglide::scene_file {
 
-/// One value. An overridden one has a single place, its `--set` option.
+/// One value. One from an option has a single place, its `--set` or `--vary`.
 struct GivenValue {
   const toml::node* value = nullptr;  ///< null for a varied key
   Location key_place;
@@ -77,7 +77,7 @@ class Document {
   void collect_table(const std::string& name, const Location& place, const toml::table& table);
   void apply_override(const std::string& text, std::size_t ordinal);
   void remove(const OverriddenKey& target);
-  void vary(const std::string& path, std::size_t ordinal, std::size_t index);
+  void vary(const std::string& path, std::size_t index);
   void place_true_values();
   GivenValue& overridden_entry(const OverriddenKey& target);
 

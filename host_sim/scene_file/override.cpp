@@ -103,11 +103,11 @@ toml::table parse_value(const std::string& value, const std::string& key, const 
   return holder;
 }
 
-OverriddenKey parse_overridden_key(const std::string& text, std::size_t ordinal) {
+OverriddenKey parse_overridden_key(const std::string& text, Location place) {
   OverriddenKey target;
-  target.place = {"--set", ordinal, 1};
+  target.place = std::move(place);
   if (text.empty()) {
-    throw SceneError(target.place, "--set", fmt::format("no key; {}", form));
+    throw SceneError(target.place, target.place.file, fmt::format("no key; {}", form));
   }
   const std::string path = unquoted(text, target.place);
   split_path(target, path);
@@ -118,10 +118,11 @@ OverriddenKey parse_overridden_key(const std::string& text, std::size_t ordinal)
 Override parse_override(const std::string& text, std::size_t ordinal) {
   const std::size_t equals = text.find('=');
   const std::string path = text.substr(0, equals);
+  const Location place{"--set", ordinal, 1};
   if (equals == std::string::npos && !path.empty()) {
-    throw SceneError({"--set", ordinal, 1}, path, fmt::format("no value; {}", form));
+    throw SceneError(place, path, fmt::format("no value; {}", form));
   }
-  OverriddenKey target = parse_overridden_key(path, ordinal);
+  OverriddenKey target = parse_overridden_key(path, place);
   const std::string value = text.substr(equals + 1);
   if (value.empty()) {
     return {std::move(target), std::nullopt};

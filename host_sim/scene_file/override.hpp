@@ -15,7 +15,7 @@ namespace sonoglide::scene_file {
 struct OverriddenKey {
   std::string table;
   std::string key;
-  Location place;  ///< file "--set", line the ordinal of the option, column 1
+  Location place;  ///< file "--set" or "--vary", line the ordinal of the option, column 1
 };
 
 struct Override {
@@ -31,9 +31,8 @@ toml::table parse_value(const std::string& value, const std::string& key, const 
 /// TABLE.KEY alone, each in quotes or not, as in TOML. The quotes about a key of [tolerance] or
 /// [true_values], which has a dot, may be left out.
 ///
-/// @param ordinal  1 for the first option
 /// @throws SceneError  not of that form, or a table or key that no scene has
-OverriddenKey parse_overridden_key(const std::string& text, std::size_t ordinal);
+OverriddenKey parse_overridden_key(const std::string& text, Location place);
 
 /// VALUE is TOML; a bare word that is not (`q31`) is a string. Without VALUE the key is to be
 /// removed, so that another can take its place.

@@ -88,9 +88,9 @@ std::vector<scene_file::VariedValue> varied_values(const Factors& factors) {
 
 }  // namespace
 
-/// Errors come with the place of the option --set that a varied value counts as.
+/// Errors come with the place of the option --vary that a varied value counts as.
 void Task::fail_at(const scene_file::SceneError& error, const Factors& factors) const {
-  const std::string key = error.file() == "--set"
+  const std::string key = error.file() == "--vary"
                               ? "tolerance." + tolerances()[error.line() - 1].key
                               : std::string("tolerance");
   throw scene_file::SceneError(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "host_sim/output/chart.hpp"
@@ -110,6 +111,16 @@ output::Chart heat_map(const Plan& plan, const std::vector<PointResult>& rows, s
 constexpr const char* key_above =
     "set grid lc rgb '#d8d8d8'\nset key outside top center horizontal";
 
+/// The indices along an axis from left to right: one whose values fall is drawn from its end.
+std::vector<std::size_t> rightward(const Axis& axis) {
+  std::vector<std::size_t> indices(axis.count);
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
+  if (axis.position(axis.count - 1) < axis.position(0)) {
+    std::reverse(indices.begin(), indices.end());
+  }
+  return indices;
+}
+
 /// The sweep's subject() against the key: a steady error with the ripple on either side, the friction ratio
 /// of the window with that of the whole run, any other alone. Failed points are grey lines from bottom to
 /// top. Other axes have one value.
@@ -118,9 +129,10 @@ output::Chart curve(const Plan& plan, const std::vector<PointResult>& rows, std:
   const Subject series = subject(plan);
   const Axis& along = plan.grid().axes()[axis];
   output::Curve failed{"failed", {}, output::Line::full_height, {}, {grey}};
+  const std::vector<std::size_t> points = rightward(along);
   std::vector<double> x;
-  for (std::size_t point = 0; point < rows.size(); ++point) {
-    x.push_back(along.position(plan.grid().index(point, axis)));
+  for (const std::size_t point : points) {
+    x.push_back(along.position(point));
     if (!rows[point].ok()) {
       failed.x.push_back(x.back());
       failed.y.push_back(1.0);
@@ -131,9 +143,9 @@ output::Chart curve(const Plan& plan, const std::vector<PointResult>& rows, std:
     chart.curves.push_back(std::move(failed));
   }
   const auto column = [&](double PointResult::*figure) {
-    std::vector<double> values(rows.size());
-    std::transform(rows.begin(), rows.end(), values.begin(),
-                   [&](const PointResult& row) { return row.*figure; });
+    std::vector<double> values(points.size());
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](std::size_t point) { return rows[point].*figure; });
     return values;
   };
   // Values side by side are not joined.
@@ -176,15 +188,16 @@ output::Chart curve_family(const Plan& plan, const std::vector<PointResult>& row
   const Subject series = subject(plan);
   const Axis& members = grid.axes()[family];
   output::Chart chart{"", "", drawn(grid.axes()[along]), {series.label}, {}, {}};
-  for (std::size_t i = 0; i < grid.axes()[along].count; ++i) {
-    chart.x.push_back(grid.axes()[along].number(i));
+  const std::vector<std::size_t> indices = rightward(grid.axes()[along]);
+  for (const std::size_t k : indices) {
+    chart.x.push_back(grid.axes()[along].number(k));
   }
   for (std::size_t i = 0; i < members.count; ++i) {
     output::Curve& member = chart.curves.emplace_back();
     member.label = members.text(i);
     member.verbatim = true;
     member.pen = {colours[i % std::size(colours)], 2.0, 1, markers[i % std::size(markers)], 0.5};
-    for (std::size_t k = 0; k < chart.x.size(); ++k) {
+    for (const std::size_t k : indices) {
       member.y.push_back(rows[i * grid.stride(family) + k * grid.stride(along)].*series.figure);
     }
   }

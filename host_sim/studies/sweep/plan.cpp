@@ -234,8 +234,7 @@ void Plan::require_varied_once() const {
 }
 
 void Plan::fail_at_point(const scene_file::SceneError& error, std::size_t point) const {
-  const bool of_axis = error.file() == "--set" && error.line() > overrides_.size();
-  if (!of_axis && error.file() != "--vary") {
+  if (error.file() != "--vary") {
     try {
       experiment::read(source_, overrides_);
     } catch (const scene_file::SceneError& own) {
@@ -244,10 +243,7 @@ void Plan::fail_at_point(const scene_file::SceneError& error, std::size_t point)
       }
     }
   }
-  const scene_file::Location place =
-      of_axis ? scene_file::Location{"--vary", error.line() - overrides_.size(), 1}
-              : scene_file::Location{error.file(), error.line(), error.column()};
-  throw scene_file::SceneError(place, error.key(),
+  throw scene_file::SceneError({error.file(), error.line(), error.column()}, error.key(),
                                fmt::format("{} (at {})", error.message(), describe(point)));
 }
 

@@ -135,6 +135,24 @@ TEST(PictureTest, WordsAgainstNumbersAreACurveForEachWord) {
   }
 }
 
+/// A page wants abscissae that rise.
+TEST(PictureTest, ValuesThatFallAreDrawnFromTheirEnd) {
+  const ScratchScene scratch(open_loop);
+  using Lists = std::vector<std::vector<std::string>>;
+  for (const auto& vary : Lists{{"velocity_ratio=1:0.1:3"},
+                                {"velocity_ratio=1,0.5,0.1"},
+                                {"velocity_ratio=1:0.1:3:log", "friction.law=coulomb,dahl"}}) {
+    const auto sheet = picture(Plan(scene_file::read_source(scratch.file()), {}, vary),
+                               rows(vary.size() == 1 ? 3 : 6));
+    ASSERT_TRUE(sheet.has_value());
+    const output::Chart& chart = sheet->charts.front();
+    EXPECT_EQ(chart.x.front(), 0.1);
+    EXPECT_EQ(chart.x.back(), 1.0);
+    const std::vector<double>& y = chart.curves.back().y;
+    EXPECT_GT(y.front(), y.back());
+  }
+}
+
 TEST(PictureTest, WordsAgainstWordsAreAMap) {
   const auto svg =
       printed({"friction.law=dahl,coulomb", "friction.coefficient=0.1,0.3,0.2"}, rows(6));

@@ -216,6 +216,9 @@ TEST(PlanTest, AKeyThatNoWordUsesIsAnError) {
             "sweep; remove it");
   EXPECT_EQ(error_of(open_loop, {"solver.method=event_taylor,strang"}, {"friction.elements=2"}),
             "--set:1:1: friction.elements: not used at any point of the sweep; remove it");
+  EXPECT_EQ(error_of(open_loop, {"solver.method=event_taylor,strang", "friction.elements=2,3"},
+                     {"solver.tolerance=1e-8"}),
+            "--vary:2:1: friction.elements: not used at any point of the sweep; remove it");
 }
 
 TEST(PlanTest, WordsThatNoSceneHasNameTheOption) {
