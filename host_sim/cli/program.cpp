@@ -59,6 +59,10 @@ void parse_and_run(int argument_count, const char* const* arguments,
   flush_output();
 }
 
+std::string unwritten_output(const std::string& reason) {
+  return "standard output: cannot be written: " + reason;
+}
+
 /// Of what no command is known to throw.
 constexpr const char* unexpected = "an error of the program itself, which should be reported";
 
@@ -93,9 +97,8 @@ std::string hint(int argument_count, const char* const* arguments,
 void flush_output() {
   errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw process::FileError(errno == 0 ? "standard output: cannot be written"
-                                        : "standard output: cannot be written: " +
-                                              std::generic_category().message(errno));
+    throw process::FileError(
+        unwritten_output(errno == 0 ? "no reason given" : std::generic_category().message(errno)));
   }
 }
 
@@ -130,6 +133,10 @@ int run_program(int argument_count, const char* const* arguments,
     return fail(system_failed, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(system_failed, error.path1().string() + ": " + error.code().message());
+  } catch (const std::system_error& error) {
+    return fail(system_failed, std::ferror(stdout) != 0
+                                   ? unwritten_output(error.code().message())
+                                   : fmt::format("sonoglide: {}: {}", unexpected, error.what()));
   } catch (const std::bad_alloc&) {
     return fail(system_failed, "sonoglide: the memory is not enough; allowed: a smaller task");
   } catch (const std::exception& error) {

@@ -177,6 +177,13 @@ TEST(RatioCommandTest, ReportsOutputThatCannotBeWritten) {
   EXPECT_EQ(folder.read("err"), "standard output: cannot be written: No space left on device\n");
 }
 
+/// A text that is longer than what the stream keeps until it is written.
+TEST(SchemaCommandTest, ReportsOutputThatCannotBeWritten) {
+  const ScratchFolder folder;
+  EXPECT_EQ(folder.run("schema >/dev/full 2>err #").exit_code, 1);
+  EXPECT_EQ(folder.read("err"), "standard output: cannot be written: No space left on device\n");
+}
+
 /// Nobody can be told, but the exit code is that of the error, and a note stops no run.
 TEST(StandardErrorTest, MayBeClosedOrFull) {
   const ScratchFolder folder;
