@@ -226,8 +226,15 @@ void add_lead_note(const ControlDesign& design, std::vector<std::string>& notes)
   }
 }
 
-/// Where the contact as believed does not settle in the time of a target.
+/// Where the contact as believed does not settle in the time of a target, or rings while it is read.
 void add_tracking_note(const ControlDesign& design, std::vector<std::string>& notes) {
+  constexpr double audible = 0.05;
+  const auto* mode = design.in_mode<FeedforwardDesign>();
+  if (design.tracks && mode != nullptr && (mode->free_mode || mode->left > audible)) {
+    notes.push_back(
+        "The friction is learnt while the drive dips, and the natural mode rings then, which no "
+        "interval of the friction allows for: Fc may be off by far more than its interval says.");
+  }
   if (design.tracks && design.tracking_unsettled > 0.0) {
     notes.push_back(fmt::format(
         "The contact slides too slowly through its presliding travel: after the {} carrier periods "

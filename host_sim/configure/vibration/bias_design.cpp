@@ -41,10 +41,12 @@ double largest_bias_part(double natural_per_carrier, int delay_periods) {
          numeric::sin_pi(2.0 * edge);
 }
 
-double wanted_bias_N(double friction_N, double force_N, double natural_per_carrier,
-                     int delay_periods) {
-  const double part = taken * largest_bias_part(natural_per_carrier, delay_periods);
-  return 2.0 * friction_N + part * natural_per_carrier * force_N / numeric::two_pi;
+double wanted_bias_N(const scene::Scene& scene, const NominalPlant& plant) {
+  const scene::Drive& drive = *scene.drive;
+  const double natural_per_carrier = plant.natural_rad_per_s() / drive.rate_rad_per_s();
+  const double part = taken * largest_bias_part(natural_per_carrier, delay_periods(scene));
+  return 2.0 * plant.friction_N +
+         part * natural_per_carrier * drive.max_force_amplitude_N / numeric::two_pi;
 }
 
 BiasDesign design_bias(const scene::Scene& scene, const NominalPlant& plant,

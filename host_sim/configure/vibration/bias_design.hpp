@@ -31,9 +31,8 @@ double fastest_biased_mode(int delay_periods);
 
 /// A limit with which a bias is seldom at its end: twice the friction, which pushes the mass, and what
 /// answers the free motion that full drive leaves when it begins.
-/// @param force_N  largest amplitude of the drive
-double wanted_bias_N(double friction_N, double force_N, double natural_per_carrier,
-                     int delay_periods);
+/// @param scene  has the vibration control that the bias is for
+double wanted_bias_N(const scene::Scene& scene, const NominalPlant& plant);
 
 /// Of a scene with a bias limit.
 /// @param resonator  the nominal one, with velocities per velocity_m_per_s

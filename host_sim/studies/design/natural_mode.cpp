@@ -37,9 +37,15 @@ int step_periods(double natural_per_carrier) {
 scene::Scene fed_forward(scene::Scene scene) {
   scene.controller->vibration.reset();
   scene.controller->calibration_s = 0.0;
+  if (scene.controller->friction == scene::FrictionSource::calibrated) {
+    scene.controller->friction.reset();
+  }
   scene.controller->relearn_every_s.reset();
   scene.sensor.vibration.reset();
-  scene.sensor.force = true;
+  if (!scene.sensor.force) {
+    scene.sensor.force = true;
+    scene.sensor.force_full_scale_N = 2.0 * scene.friction.largest_limit_N();
+  }
   scene.drive->bias_limit_N = 0.0;
   scene.plant.initial_displacement_m = 0.0;
   scene.plant.initial_velocity_m_per_s = 0.0;
@@ -169,11 +175,10 @@ std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_r
     return std::nullopt;
   }
   BiasedDrive biased;
-  biased.limit_N = configure::wanted_bias_N(plant.friction_N, nominal.drive->max_force_amplitude_N,
-                                            natural, nominal.drive->delay_periods);
   nominal.controller->vibration = scene::VibrationControl::damped;
   nominal.controller->shaping = std::nullopt;
   nominal.sensor.vibration = scene::VibrationSensor::velocity;
+  biased.limit_N = configure::wanted_bias_N(nominal, plant);
   nominal.drive->bias_limit_N = biased.limit_N;
   try {
     biased.plants = try_plants(nominal, stiffness_range);
@@ -209,11 +214,13 @@ void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
     loop.controller->shaping_range = means.shaping_range;
   }
   loop.drive->interpolation =
-      means.ramped ? scene::Interpolation::linear : scene::Interpolation::step;
+      means.ramped() ? scene::Interpolation::linear : scene::Interpolation::step;
   loop.drive->codes_per_period = means.codes_per_period;
   loop.drive->bias_limit_N = recommended.bias_limit_N;
   if (means.sensorless) {
     loop.controller->vibration = scene::VibrationControl::damped;
+    loop.controller->every_periods = 1;
+    loop.drive->max_force_slew_N_per_s.reset();
   }
   if (means.sensorless || means.biased) {
     scene::Arithmetic& arithmetic = loop.controller->arithmetic;
@@ -228,7 +235,7 @@ std::string quoted(std::string_view word) {
 std::vector<SceneLine> scene_lines(const scene::Scene& stated, const RecommendedLoop& loop) {
   const configure::RecommendedMeans& means = loop.means;
   std::vector<SceneLine> lines;
-  if (means.ramped) {
+  if (means.ramped()) {
     const auto linear = scene::name_of(scene::interpolations, scene::Interpolation::linear);
     lines.push_back({"drive", "interpolation", quoted(linear)});
     lines.push_back({"drive", "codes_per_period", fmt::format("{}", means.codes_per_period)});
@@ -266,8 +273,10 @@ std::vector<std::string> contradicting_keys(const scene::Scene& stated,
                                             const RecommendedLoop& loop) {
   const scene::Controller& controller = *stated.controller;
   std::vector<std::string> keys;
+  const bool observed = loop.means.sensorless;
   const bool designed = !(loop.means.shaping_range > 0.0);
-  if (designed && controller.shaping && *controller.shaping != scene::Shaping::notch) {
+  if (designed && controller.shaping &&
+      (observed || *controller.shaping != scene::Shaping::notch)) {
     keys.emplace_back("controller.shaping");
   }
   if (designed && controller.shaping_range) {
@@ -278,6 +287,12 @@ std::vector<std::string> contradicting_keys(const scene::Scene& stated,
   }
   if (controller.relearn_every_s && loop.friction == scene::FrictionSource::tracked) {
     keys.emplace_back("controller.relearn_every_s");
+  }
+  if (observed && controller.every_periods != 1) {
+    keys.emplace_back("controller.every_periods");
+  }
+  if (observed && stated.drive->max_force_slew_N_per_s) {
+    keys.emplace_back("drive.max_force_slew_N_per_s");
   }
   return keys;
 }
@@ -305,12 +320,11 @@ RecommendedLoop recommended_loop(const scene::Scene& stated, scene::Scene nomina
   const double natural = plant.natural_rad_per_s() / nominal.drive->rate_rad_per_s();
   RecommendedLoop found;
   found.means = configure::recommended_means(natural, scene::vibrates_along(stated.friction.law));
-  if (found.means.biased) {
-    found.bias_limit_N =
-        configure::wanted_bias_N(plant.friction_N, nominal.drive->max_force_amplitude_N, natural,
-                                 nominal.drive->delay_periods);
-  }
   equip(nominal, found);
+  if (found.means.biased) {
+    found.bias_limit_N = configure::wanted_bias_N(nominal, plant);
+    nominal.drive->bias_limit_N = found.bias_limit_N;
+  }
   try {
     found.friction = friction_source(stated, nominal);
     if (found.friction == scene::FrictionSource::trusted) {

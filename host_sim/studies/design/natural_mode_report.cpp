@@ -117,15 +117,15 @@ Advice controller_advice(const NaturalModeStudy& mode) {
                                         tally_text(best.plants));
   const bool shown = mode.recommended_loop.means.kind != configure::ModeKind::across;
   if (best.plants.never == 0) {
-    return {
-        "Controller",
-        fmt::format("The cheapest that holds this plant feeds the drive forward with {} It needs "
-                    "no observer of the mode{}.",
-                    found,
-                    shown ? fmt::format(" (controller.vibration = \"damped\", {} without a "
-                                        "vibration sensor)",
-                                        observer_cost)
-                          : "")};
+    return {"Controller",
+            fmt::format(
+                "The cheapest that holds this plant feeds the drive forward with {} It does "
+                "without an observer of the mode{}.",
+                found,
+                shown ? fmt::format(", which controller.vibration = \"damped\" has and which takes "
+                                    "{} where there is no vibration sensor",
+                                    observer_cost)
+                      : "")};
   }
   return {"Controller",
           fmt::format("The best that feeds the drive forward has {} For the others use another "
@@ -166,7 +166,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> lines_by_table(
 Advice keys_advice(const RecommendedLoop& loop) {
   std::string sentence = "For the recommended loop ";
   if (!loop.leaves.empty()) {
-    sentence += fmt::format("remove {}, and ", fmt::join(loop.leaves, ", "));
+    sentence += fmt::format("leave out {}, where it is given, and ", fmt::join(loop.leaves, ", "));
   }
   sentence +=
       "write these lines below the header of each table, in place of lines with the same keys:";
@@ -237,7 +237,7 @@ Advice carrier_advice(const NaturalModeStudy& mode) {
 
 output::Chart carrier_chart(const NaturalModeStudy& mode) {
   output::Chart chart{"Plants that settle at carriers around the scene's",
-                      fmt::format("{} at each carrier. Prompt: every target within {} carrier "
+                      fmt::format("{} at each carrier. Settled: every target within {} carrier "
                                   "periods. Without a mark the drive has not the force.",
                                   tried(mode), prompt_periods),
                       {"Carrier frequency [Hz]"},
@@ -347,8 +347,8 @@ ordered_json to_json(const NaturalModeStudy& mode) {
   const RecommendedLoop& loop = mode.recommended_loop;
   json["recommended_loop"] = {
       {"interpolation",
-       scene::name_of(scene::interpolations, loop.means.ramped ? scene::Interpolation::linear
-                                                               : scene::Interpolation::step)},
+       scene::name_of(scene::interpolations, loop.means.ramped() ? scene::Interpolation::linear
+                                                                 : scene::Interpolation::step)},
       {"codes_per_period", loop.means.codes_per_period},
       {"damped", loop.means.sensorless},
       {"bias_limit_N", loop.bias_limit_N},

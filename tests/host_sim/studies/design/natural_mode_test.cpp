@@ -90,7 +90,7 @@ TEST(NaturalModeTest, RecommendsABiasAgainstASlowMode) {
 
 TEST(NaturalModeTest, RecommendsTheLoopThatSuitsTheMode) {
   const NaturalModeStudy beside = study_of(beside_a_multiple());
-  EXPECT_TRUE(beside.recommended_loop.means.ramped);
+  EXPECT_TRUE(beside.recommended_loop.means.ramped());
   EXPECT_EQ(beside.recommended_loop.refused, "");
   EXPECT_EQ(beside.recommended_loop.means.codes_per_period, 2);
   EXPECT_EQ(beside.recommended_loop.plants.never, 0U);
@@ -169,7 +169,7 @@ TEST(NaturalModeTest, RecommendsARampForAVibrationThatTheFrictionDoesNotShow) {
     const NaturalModeStudy found = study_of(scene);
     const RecommendedLoop& loop = found.recommended_loop;
     EXPECT_EQ(loop.means.kind, configure::ModeKind::across);
-    EXPECT_TRUE(loop.means.ramped);
+    EXPECT_TRUE(loop.means.ramped());
     EXPECT_EQ(loop.refused, "");
     EXPECT_EQ(loop.plants.settled + loop.plants.late + loop.plants.never, found.plants);
     EXPECT_FALSE(found.bias);
@@ -197,9 +197,41 @@ TEST(NaturalModeTest, TellsTheLinesThatASceneLacks) {
             "controller.arithmetic = \"q31\"\n");
   EXPECT_EQ(other.leaves,
             (std::vector<std::string>{"controller.shaping", "controller.shaping_range"}));
+  scene.controller->every_periods = 2;
+  scene.drive->max_force_slew_N_per_s = 3e7;
+  EXPECT_EQ(study_of(scene).recommended_loop.leaves,
+            (std::vector<std::string>{"controller.shaping", "controller.shaping_range",
+                                      "controller.every_periods", "drive.max_force_slew_N_per_s"}));
   scene.controller->vibration = scene::VibrationControl::damped;
   scene.controller->arithmetic = scene::Arithmetic::q31;
   EXPECT_FALSE(study_of(scene).recommended_loop.unnamed);
+}
+
+/// The trials are fed forward on a friction that they know, whatever the scene has.
+TEST(NaturalModeTest, TriesScenesThatCalibrateOrReadNoForce) {
+  scene::Scene calibrated = table_1();
+  calibrated.controller->friction = scene::FrictionSource::calibrated;
+  calibrated.controller->calibration_s = 0.5e-3;
+  EXPECT_EQ(study_of(calibrated).recommended_loop.plants.settled, 8U);
+  scene::Scene sightless = table_1();
+  sightless.controller->vibration = scene::VibrationControl::damped;
+  sightless.sensor.vibration = scene::VibrationSensor::velocity;
+  sightless.sensor.force = false;
+  sightless.sensor.force_full_scale_N = 0.0;
+  EXPECT_EQ(study_of(sightless).recommended_loop.plants.settled, 8U);
+}
+
+/// What an observer lags behind is taken for a period, however long the delay.
+TEST(NaturalModeTest, ABiasIsOfTheLoopThatHasIt) {
+  scene::Scene scene = table_1();
+  scene.plant.stiffness_N_per_m = 15.4e6;
+  for (const int delay_periods : {0, 3, 4}) {
+    scene.drive->delay_periods = delay_periods;
+    const RecommendedLoop loop = study_of(scene).recommended_loop;
+    EXPECT_TRUE(loop.means.biased);
+    EXPECT_GT(loop.bias_limit_N, 1.0) << delay_periods;
+    EXPECT_EQ(loop.refused, "");
+  }
 }
 
 // What it calibrates is no error of its model.
@@ -386,7 +418,7 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       "hardly excite the mode, whatever the stiffness. Of 8 plants"))
       << text;
   EXPECT_TRUE(says(
-      "Keys: For the recommended loop remove controller.calibration_s, and write these lines below "
+      "Keys: For the recommended loop leave out controller.calibration_s, where it is given, and write these lines below "
       "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 2\n"
       "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;
