@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "host_sim/process/printable.hpp"
+
 namespace sonoglide::identify {
 namespace {
 
@@ -84,7 +86,15 @@ std::string_view trimmed(std::string_view text) {
 
 std::string shortened(std::string_view text) {
   constexpr std::size_t most = 40;
-  return std::string(trimmed(text).substr(0, most));
+  text = trimmed(text);
+  std::size_t size = std::min(most, text.size());
+  const auto continues = [&](std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U;
+  };
+  while (size > 0 && continues(size)) {
+    --size;
+  }
+  return process::printable(text.substr(0, size));
 }
 
 std::string lower_case(std::string_view text) {

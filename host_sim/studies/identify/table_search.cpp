@@ -172,9 +172,9 @@ class TableSearch {
     return rows;
   }
 
-  /// Of the lines below the rows, if they do not begin with `END`.
+  /// Of the lines below the rows; `END` alone is what instruments end a file with.
   void warn_of_rest(const Rows& rows, std::vector<std::string>& warnings) const {
-    if (rows.count == 0 || rows.end == lines_.size() || trimmed(lines_[rows.end].text) == "END") {
+    if (rows.count == 0 || rows.end == lines_.size()) {
       return;
     }
     const Line& below = lines_[rows.end];
@@ -187,6 +187,9 @@ class TableSearch {
                   fmt::format("\"{}\" ends the table, and rows follow it; allowed: one "
                               "table in a file, its rows without a break",
                               shortened(below.text)));
+    }
+    if (trimmed(below.text) == "END") {
+      return;
     }
     warnings.push_back(fmt::format("Line {}, \"{}\", is below the table and is not read.",
                                    below.number, shortened(below.text)));

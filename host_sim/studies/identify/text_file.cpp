@@ -191,7 +191,7 @@ std::string warning_of_cut(const scene_file::Source& source) {
     return {};
   }
   return fmt::format("The last line, \"{}\", has no line end: if the file was cut, it is wrong.",
-                     last.substr(0, 60));
+                     shortened(last));
 }
 
 }  // namespace sonoglide::identify

@@ -60,7 +60,7 @@ std::string warning_of_cut(const scene_file::Source& source);
 /// Without the blanks of ASCII around it.
 std::string_view trimmed(std::string_view text);
 
-/// The beginning of a text, for a message.
+/// The beginning of a text in valid UTF-8, for a message.
 std::string shortened(std::string_view text);
 
 std::string lower_case(std::string_view text);

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
-#include <set>
 #include <string_view>
 #include <tuple>
 
@@ -88,37 +89,58 @@ void warn(Readings& readings) {
   }
 }
 
-}  // namespace
-
-std::size_t Readings::distinct() const {
-  std::set<std::tuple<double, double, double>> different;
+/// Frictions by sliding velocity, vibration velocity and frequency.
+std::map<std::array<double, 3>, std::vector<double>> by_velocity(const std::vector<Reading>& rows) {
+  std::map<std::array<double, 3>, std::vector<double>> groups;
   for (const Reading& row : rows) {
-    different.emplace(row.sliding_m_per_s, row.vibration_m_per_s, row.frequency_Hz);
+    groups[{row.sliding_m_per_s, row.vibration_m_per_s, row.frequency_Hz}].push_back(row.friction);
   }
-  return different.size();
+  return groups;
 }
 
-double Readings::rounding() const {
+/// The last one that the frictions are written with: a power of ten, not above the largest.
+double last_digit(const std::vector<Reading>& rows) {
   double largest = 0.0;
   for (const Reading& row : rows) {
     largest = std::max(largest, std::abs(row.friction));
   }
-  constexpr double most = 0.01;
-  double digit = most * largest;
-  const auto is_written_with = [&](double value) {
+  double digit = std::pow(10.0, std::floor(std::log10(largest)));
+  const auto is_written_with = [&](const Reading& row) {
     constexpr double of_binary = 1e-13;
-    return std::abs(value - std::round(value / digit) * digit) <= of_binary * largest;
+    return std::abs(row.friction - std::round(row.friction / digit) * digit) <= of_binary * largest;
   };
-  digit = std::pow(10.0, std::floor(std::log10(digit)));
-  constexpr int most_digits = 15;
-  for (int i = 0; i < most_digits; ++i) {
-    if (std::all_of(rows.begin(), rows.end(),
-                    [&](const Reading& row) { return is_written_with(row.friction); })) {
-      break;
-    }
+  constexpr int most_digits = 17;
+  for (int i = 0; i < most_digits && !std::all_of(rows.begin(), rows.end(), is_written_with); ++i) {
     digit /= 10.0;
   }
-  return digit / std::sqrt(12.0);
+  return digit;
+}
+
+}  // namespace
+
+std::size_t Readings::distinct() const {
+  return by_velocity(rows).size();
+}
+
+double Readings::rounding() const {
+  return last_digit(rows) / std::sqrt(12.0);
+}
+
+double Readings::rounded_alike() const {
+  constexpr double half = 0.5;
+  const auto groups = by_velocity(rows);
+  const auto all = static_cast<double>(rows.size());
+  const auto means = static_cast<double>(groups.size());
+  double squares = 0.0;
+  for (const auto& [velocity, values] : groups) {
+    const auto count = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+    for (const double each : values) {
+      squares += (each - mean) * (each - mean);
+    }
+  }
+  const double most = half * last_digit(rows);
+  return squares < most * most * (all - means) ? all / means : 1.0;
 }
 
 Readings read_readings(const scene_file::Source& source) {

@@ -30,9 +30,12 @@ struct Readings {
 
   /// Readings of different velocities or frequencies: repeated ones tell no further parameter.
   std::size_t distinct() const;
-  /// Standard deviation of rounding to the last digit that the values were written with, at most
-  /// 1 % of the largest of them. Their scatter is no less.
+  /// Standard deviation of rounding to the last digit that the values were written with. Their
+  /// scatter is no less.
   double rounding() const;
+  /// How many readings, in the mean, are off by the same rounding: those of one velocity, where they scatter
+  /// by less than half a last digit; else 1. More scatter rounds up as often as down.
+  double rounded_alike() const;
 };
 
 /// More are refused: a mean of readings at one velocity tells a fit as much.

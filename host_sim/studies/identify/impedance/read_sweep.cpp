@@ -73,6 +73,21 @@ Sweep read_table(const scene_file::Source& source) {
   return sweep;
 }
 
+/// Whether the first readings of the frequencies that have several are off their means alike from one to the
+/// next, as those of a trace are. The steps of white noise have twice its mean square.
+/// @param off  relative
+bool is_of_a_trace(const std::vector<Complex>& off) {
+  constexpr std::size_t fewest = 8;
+  constexpr double part = 0.5;
+  double squares = 0.0;
+  double steps = 0.0;
+  for (std::size_t i = 1; i < off.size(); ++i) {
+    squares += std::norm(off[i]);
+    steps += std::norm(off[i] - off[i - 1]);
+  }
+  return off.size() >= fewest && steps < part * squares;
+}
+
 /// By rising frequency, of each the mean of its readings.
 void sort_and_average(Sweep& sweep) {
   std::map<double, std::vector<Complex>> readings_S;
@@ -83,23 +98,30 @@ void sort_and_average(Sweep& sweep) {
   sweep.frequency_Hz.clear();
   sweep.admittance_S.clear();
   double difference = 0.0;
+  std::vector<Complex> first_off;
   for (const auto& [frequency_Hz, all_S] : readings_S) {
     const Complex sum_S = std::accumulate(all_S.begin(), all_S.end(), Complex(0.0));
     const Complex mean_S = sum_S / static_cast<double>(all_S.size());
     for (const Complex each_S : all_S) {
       difference = std::max(difference, std::abs(each_S / mean_S - 1.0));
     }
+    if (all_S.size() > 1) {
+      first_off.push_back(all_S.front() / mean_S - 1.0);
+    }
     sweep.frequency_Hz.push_back(frequency_Hz);
     sweep.admittance_S.push_back(mean_S);
   }
+  const bool of_traces = is_of_a_trace(first_off);
   if (readings_S.size() < given) {
-    sweep.warnings.push_back(
-        fmt::format("The file has {} readings at {}: those of one frequency are averaged.{}", given,
-                    counted_frequencies(readings_S.size()),
-                    difference > large ? fmt::format(" They differ by up to {:.2g} % from their "
-                                                     "mean: of several traces leave one.",
-                                                     100.0 * difference)
-                                       : ""));
+    sweep.warnings.push_back(fmt::format(
+        "The file has {} readings at {}: those of one frequency are averaged.{}", given,
+        counted_frequencies(readings_S.size()),
+        difference > large || of_traces
+            ? fmt::format(" They differ by up to {:.2g} % from their mean{}: of several "
+                          "traces leave one.",
+                          100.0 * difference,
+                          of_traces ? ", alike along the sweep, which no interval holds" : "")
+            : ""));
   }
 }
 

@@ -243,7 +243,15 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
        {!sweep.has_phase,
         "Losses of the dielectric: magnitudes alone hardly separate them from the motional "
         "resistance. A sweep with phase does."},
-       {sees_lead_or_rotation(selected.fit), open_lead(selected)}});
+       {sees_lead_or_rotation(selected.fit), open_lead(selected)},
+       {selected.fit.parts.has_lead(),
+        fmt::format(
+            "Whether voltage and current are measured at the same time: a delay between the two "
+            "channels looks much like a lead, and the intervals do not include it. Each 10 ns "
+            "turns the phase at the resonance by {:.2g} degrees; one of 2 degrees may make the "
+            "motional resistance come out 10 % off. A compensation with a known resistor as "
+            "load removes it.",
+            10e-9 * modes.front().resonance_Hz * 360.0)}});
   for (const Unseen& each : selected.unseen) {
     open.push_back(open_part(each, modes.front()));
   }

@@ -54,6 +54,29 @@ TEST(MeasuredTable, PassesOverWhatIsNoTable) {
   expect_two_rows("a,b\n(Hz),(ohm)\n1,-3e3\n2.5,4\n", {"a (Hz)", "b (ohm)"});
 }
 
+/// Of rows below it nothing is read, whatever ends the table.
+TEST(MeasuredTable, RefusesRowsBelowTheEndOfTheTable) {
+  for (const char* end : {"END", "stop"}) {
+    EXPECT_EQ(error_of(std::string("a,b\n1,2\n") + end + "\n3,4\n"),
+              std::string("m.csv:3:1: row: \"") + end +
+                  "\" ends the table, and rows follow it; allowed: one table in a file, its rows "
+                  "without a break");
+  }
+}
+
+/// What JSON and a page cannot hold is escaped, and no character is cut.
+TEST(MeasuredTable, ALineThatAWarningQuotesIsValidUtf8) {
+  const auto quoted = [](const std::string& line) {
+    const scene_file::Source source{"m.csv", "a,b\n1,2\n" + line + "\n"};
+    return MeasuredTable(source, find_table(source, any_names)).warnings().at(0);
+  };
+  EXPECT_EQ(quoted("Operator: M\xfcller"),
+            "Line 3, \"Operator: M\\xfcller\", is below the table and is not read.");
+  const std::string letters(39, 'x');
+  EXPECT_EQ(quoted(letters + "\u00fcy"),
+            "Line 3, \"" + letters + "\", is below the table and is not read.");
+}
+
 TEST(MeasuredTable, PassesOverARowThatIsMadeAComment) {
   expect_two_rows("a,b\n1,-3e3\n#3,nan\n2.5,4\n", {"a", "b"});
 }

@@ -303,6 +303,32 @@ TEST(FrictionFit, AnExactFitDoesNotFail) {
   }
 }
 
+/// Repeats that scatter by less than a digit are off alike, and their rounding is no pattern.
+TEST(FrictionFit, RepeatsThatAreRoundedAlikeTellNoMoreThanOne) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> scatter(0.0, 5e-4);
+  constexpr int sets = 20;
+  int held = 0;
+  for (int set = 0; set < sets; ++set) {
+    const double truth = per_amplitude_per_m * std::pow(10.0, set / 19.0 - 0.5);
+    const Readings exact = readings_of("Dahl", {truth}, 0.0);
+    Readings readings = exact;
+    readings.rows.clear();
+    for (const std::size_t velocity : {2U, 7U, 12U}) {
+      for (int repeat = 0; repeat < 20; ++repeat) {
+        readings.rows.push_back(exact.rows[velocity]);
+        double& friction = readings.rows.back().friction;
+        friction = std::round(100.0 * (friction + scatter(random))) / 100.0;
+      }
+    }
+    const Comparison comparison = compare(readings, {"dahl"}, silent);
+    const Estimate& found = comparison.best().parameters.front();
+    held += found.low_95 <= truth && truth <= found.high_95 ? 1 : 0;
+    EXPECT_FALSE(comparison.best().fails()) << set;
+  }
+  EXPECT_GE(held, sets - 2);
+}
+
 /// The verdict has room: chi square is a column only where standard errors are stated.
 TEST(FrictionPage, HasOneLawAndNoColumnOfDashes) {
   const output::Page without = page(compared(coulomb_rows, {"coulomb"}), "x");

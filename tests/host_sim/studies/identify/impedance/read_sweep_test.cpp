@@ -531,6 +531,24 @@ TEST(ReadSweep, SortsAndAveragesReadingsOfOneFrequency) {
             "differ by up to 50 % from their mean: of several traces leave one.");
 }
 
+/// Two traces that differ alike along the sweep, however little, or readings that scatter as much.
+TEST(ReadSweep, NamesTracesThatDifferByMoreThanScatter) {
+  for (const bool as_traces : {true, false}) {
+    std::string text = "f_Hz,|Y|\n";
+    for (const bool second : {false, true}) {
+      for (int f = 1; f <= 20; ++f) {
+        const bool above = as_traces ? second : second == (f % 3 == 0 || f % 5 == 0);
+        text += fmt::format("{},{}\n", f, above ? 102 : 100);
+      }
+    }
+    const std::string warning = read_sweep({"m.csv", text}).warnings.at(0);
+    EXPECT_EQ(warning.find("They differ by up to 0.99 % from their mean, alike along the sweep") !=
+                  std::string::npos,
+              as_traces)
+        << warning;
+  }
+}
+
 TEST(ReadSweep, NamesThePlaceOfWhatIsWrong) {
   const auto begins = [](const std::string& text, const std::string& error) {
     EXPECT_EQ(error_of(text).substr(0, error.size()), error) << error_of(text);
