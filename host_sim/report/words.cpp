@@ -45,6 +45,29 @@ std::string held_head(const TargetUnit& unit, const char* name) {
   return unit.is_force() ? fmt::format("{} [{}]", name, unit.name) : name;
 }
 
+namespace {
+
+/// Whether the drive stands at an end of its range though the ratio is beyond its target: the friction that the
+/// controller reads is not the true one.
+bool is_at_wrong_end(const report::StepMetrics& step) {
+  if (step.settling_time_s || step.least_friction || !step.limit_seen_by_controller ||
+      std::abs(step.steady_error) <= step.ripple) {
+    return false;
+  }
+  switch (step.limit) {
+    case control::Limit::actuator:
+    case control::Limit::voltage:
+    case control::Limit::current:
+      return step.steady_error < 0.0;
+    case control::Limit::ratio_end:
+      return step.steady_error > 0.0;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
 std::string limit_text(const report::StepMetrics& step) {
   std::string text = control::name(step.limit);
   if (std::isnan(step.steady_error)) {
@@ -58,6 +81,9 @@ std::string limit_text(const report::StepMetrics& step) {
                 ? fmt::format(" (past the least friction: {} of vibration give a ratio of {:.3g})",
                               output::quantity(least->vibration_m_per_s, "m/s"), least->ratio)
                 : fmt::format(" (no vibration gives a ratio below {:.3g})", least->ratio);
+  }
+  if (is_at_wrong_end(step)) {
+    text += " (by a wrong reading or friction force: the true ratio is beyond the target)";
   }
   constexpr double little = 0.05;  // of a friction that has been learnt
   if (step.limit == control::Limit::mismatch && step.mismatch &&

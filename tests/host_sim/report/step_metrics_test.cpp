@@ -380,5 +380,28 @@ TEST(StepMetricsTest, ALastPeriodThatTheRunCutsShortHasNoRatioOfItsOwn) {
   EXPECT_NEAR(step.steady_error, 0.0, 1e-12);
 }
 
+/// A drive at the end that takes the ratio away from its target is there by what the controller believes.
+TEST(LimitTextTest, TellsADriveAtTheWrongEnd) {
+  using control::Limit;
+  StepMetrics step;
+  step.target = 0.5;
+  step.ripple = 0.01;
+  const auto told = [&](Limit limit, double steady_error) {
+    step.limit = limit;
+    step.steady_error = steady_error;
+    return limit_text(step).find("the true ratio is beyond the target") != std::string::npos;
+  };
+  for (const Limit limit : {Limit::actuator, Limit::voltage, Limit::current}) {
+    EXPECT_TRUE(told(limit, -0.1));
+    EXPECT_FALSE(told(limit, 0.1));
+    EXPECT_FALSE(told(limit, -0.005));
+  }
+  EXPECT_TRUE(told(Limit::ratio_end, 0.1));
+  EXPECT_FALSE(told(Limit::ratio_end, -0.1));
+  EXPECT_FALSE(told(Limit::mismatch, -0.1));
+  step.settling_time_s = 1e-3;
+  EXPECT_FALSE(told(Limit::actuator, -0.1));
+}
+
 }  // namespace
 }  // namespace sonoglide::report::step_metrics_test
