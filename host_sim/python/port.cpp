@@ -12,7 +12,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
@@ -129,9 +128,8 @@ class Port {
   py::list faults() {
     py::list faults;
     for (std::uint8_t age = 0; age < UINT8_MAX; ++age) {
-      const auto result = answer<link::LoggedFault>(link::ReadFault{age});
-      const auto* fault = std::get_if<link::LoggedFault>(&result);
-      if (fault == nullptr) {
+      const auto fault = ask_if_kept<link::LoggedFault>(link::ReadFault{age});
+      if (!fault) {
         break;
       }
       py::dict entry;
@@ -236,14 +234,17 @@ class Port {
     return *link_;
   }
 
-  /// A work of several requests, which other threads wait for.
+  /// A work of one request or several, which other threads wait for.
+  /// @throws std::invalid_argument  the unit has no such value
+  /// @throws std::runtime_error     the unit refuses it now
   template <class Work>
   std::invoke_result_t<Work> in_turn(const Work& work) try {
     const py::gil_scoped_release released;
     const std::lock_guard turn(turn_);
     return work();
   } catch (const unit::UnitRefusal& refusal) {
-    if (refusal.out_of_range()) {
+    if (refusal.has_reason(link::Reason::out_of_range) ||
+        refusal.has_reason(link::Reason::unknown_parameter)) {
       throw std::invalid_argument(refusal.what());
     }
     throw std::runtime_error(refusal.what());
@@ -273,46 +274,15 @@ class Port {
   }
 
   template <class Answer, class Request>
-  unit::UnitLink::Result<Answer> answer(const Request& request,
-                                        std::chrono::milliseconds work = {}) {
-    const py::gil_scoped_release released;
-    const std::lock_guard turn(turn_);
-    return open_link().ask<Answer>(request, work);
-  }
-
-  /// @param parameter  of the value that was asked for
-  /// @throws std::invalid_argument  the unit has no such value
-  /// @throws std::runtime_error     the unit refuses it now
-  template <class Answer, class Request>
   Answer ask(const Request& request, std::size_t parameter = 0,
              std::chrono::milliseconds work = {}) {
-    return taken<Answer>(answer<Answer>(request, work), parameter);
+    return in_turn(
+        [&] { return unit::require<Answer>(open_link(), scales_, request, parameter, work); });
   }
 
-  /// None of what the image does not keep, or of which there has been none.
   template <class Answer, class Request>
   std::optional<Answer> ask_if_kept(const Request& request) {
-    const auto result = answer<Answer>(request);
-    if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-      const auto reason = static_cast<link::Reason>(refusal->reason);
-      if (reason == link::Reason::unknown_request || reason == link::Reason::no_such_fault) {
-        return std::nullopt;
-      }
-    }
-    return taken<Answer>(result, 0);
-  }
-
-  template <class Answer>
-  Answer taken(const unit::UnitLink::Result<Answer>& result, std::size_t parameter) const {
-    if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-      const std::string words = unit::words_of(*refusal, parameter, scales_);
-      const auto reason = static_cast<link::Reason>(refusal->reason);
-      if (reason == link::Reason::out_of_range || reason == link::Reason::unknown_parameter) {
-        throw std::invalid_argument(words);
-      }
-      throw std::runtime_error(words);
-    }
-    return std::get<Answer>(result);
+    return in_turn([&] { return unit::ask_if_kept<Answer>(open_link(), scales_, request); });
   }
 
   std::string device_;

@@ -10,9 +10,8 @@
 
 #include "firmware/app/parameter_labels.hpp"
 #include "firmware/app/unit_names.hpp"
-#include "host_sim/process/pipe.hpp"
+#include "host_sim/process/file_error.hpp"
 #include "host_sim/unit/tare.hpp"
-#include "host_sim/unit/unit_refusal.hpp"
 #include "host_sim/unit/unit_words.hpp"
 
 namespace sonoglide::unit {
@@ -117,15 +116,17 @@ std::vector<std::string> Console::carry_out(const std::string& line) {
   if (words.size() < found->fewest_words || words.size() > found->most_words) {
     return refuse_usage(name, words);
   }
-  return found->carry_out(*this, words);
+  try {
+    return found->carry_out(*this, words);
+  } catch (const UnitRefusal& refusal) {
+    return refuse(refusal.what());
+  } catch (const process::FileError& error) {
+    return refuse(error.what());
+  }
 }
 
 std::vector<std::string> Console::identity() {
-  const auto result = unit_.ask<link::Identity>(link::ReadIdentity{});
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refuse(*refusal, 0);
-  }
-  Lines lines{text_of(std::get<link::Identity>(result))};
+  Lines lines{text_of(require<link::Identity>(link::ReadIdentity{}))};
   for (std::string& line :
        with_caveat(fmt::format("target: {}; {}", allowed_target(), text_of(scales_)))) {
     lines.push_back(std::move(line));
@@ -164,10 +165,7 @@ Console::Lines Console::set_target(const Words& words) {
   if (!value.error.empty()) {
     return refuse_value(target, value.error);
   }
-  const auto result = unit_.ask<link::TargetSet>(link::SetTarget{value.count});
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refuse(*refusal, target);
-  }
+  require<link::TargetSet>(link::SetTarget{value.count}, target);
   return status();
 }
 
@@ -177,67 +175,57 @@ Console::Lines Console::stop() {
 }
 
 Console::Lines Console::restart() {
-  const auto result = unit_.ask<link::Restarted>(link::Restart{});
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refuse(*refusal, 0);
-  }
+  require<link::Restarted>(link::Restart{});
   return status();
 }
 
-Console::Lines Console::confirm() {
-  const auto result = unit_.ask<link::Confirmed>(link::Confirm{}, longest_save);
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    if (refusal->reason == static_cast<std::uint8_t>(link::Reason::not_saved)) {
-      return {"parameters confirmed until reset; not saved"};
-    }
-    return refuse(*refusal, 0);
-  }
+Console::Lines Console::confirm() try {
+  require<link::Confirmed>(link::Confirm{}, 0, longest_save);
   return {"parameters confirmed, saved"};
+} catch (const UnitRefusal& refusal) {
+  if (refusal.has_reason(link::Reason::not_saved)) {
+    return {"parameters confirmed until reset; not saved"};
+  }
+  throw;
 }
 
 Console::Lines Console::log() {
   Lines lines;
   std::uint32_t count = 0;
   for (std::uint8_t age = 0; age < UINT8_MAX; ++age) {
-    const auto result = unit_.ask<link::LoggedFault>(link::ReadFault{age});
-    const auto* fault = std::get_if<link::LoggedFault>(&result);
-    if (fault == nullptr) {
+    const auto fault = ask_if_kept<link::LoggedFault>(unit_, scales_, link::ReadFault{age});
+    if (!fault) {
       break;
     }
     lines.push_back(fmt::format("period {}: {}", fault->period, app::fault_name(fault->fault)));
     count = fault->count;
   }
   lines.push_back(fmt::format("faults since reset: {}", count));
-  const auto past = unit_.ask<link::History>(link::ReadHistory{});
-  const auto* history = std::get_if<link::History>(&past);
-  const auto result = unit_.ask<link::KeptException>(link::ReadException{});
-  const auto* kept = std::get_if<link::KeptException>(&result);
-  if (kept != nullptr && (history == nullptr || history->exception_boot == history->boots)) {
+  const auto history = ask_if_kept<link::History>(unit_, scales_, link::ReadHistory{});
+  const auto kept = ask_if_kept<link::KeptException>(unit_, scales_, link::ReadException{});
+  if (kept && (!history || history->exception_boot == history->boots)) {
     lines.push_back(text_of(*kept, "the reset"));
   }
   return lines;
 }
 
 Console::Lines Console::history() {
-  const auto result = unit_.ask<link::History>(link::ReadHistory{});
-  const auto* history = std::get_if<link::History>(&result);
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refusal->reason == static_cast<std::uint8_t>(link::Reason::unknown_request)
-               ? refuse("the unit keeps no history")
-               : refuse(*refusal, 0);
+  const auto history = ask_if_kept<link::History>(unit_, scales_, link::ReadHistory{});
+  if (!history) {
+    return refuse("the unit keeps no history");
   }
   Lines lines{text_of(*history)};
-  const auto exception = unit_.ask<link::KeptException>(link::ReadException{});
-  if (const auto* kept = std::get_if<link::KeptException>(&exception)) {
+  if (const auto kept = ask_if_kept<link::KeptException>(unit_, scales_, link::ReadException{})) {
     lines.push_back(text_of(*kept, fmt::format("boot {}", history->exception_boot)));
   }
   return lines;
 }
 
+/// Each by itself: a unit of another firmware may not have them all.
 Console::Lines Console::list_parameters() {
   Lines lines;
   for (const app::ParameterLabel& label : parameter_labels) {
-    const Lines line = list_parameter(label.name);
+    const Lines line = carry_out(fmt::format("params {}", label.name));
     lines.insert(lines.end(), line.begin(), line.end());
   }
   return lines;
@@ -245,12 +233,9 @@ Console::Lines Console::list_parameters() {
 
 Console::Lines Console::list_parameter(const std::string& name) {
   const std::size_t parameter = parameter_named(name);
-  const auto result =
-      unit_.ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)});
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refuse(*refusal, parameter);
-  }
-  return {text_of(std::get<link::ParameterValue>(result), scales_)};
+  return {text_of(require<link::ParameterValue>(
+                      link::ReadParameter{static_cast<std::uint8_t>(parameter)}, parameter),
+                  scales_)};
 }
 
 Console::Lines Console::set_parameter(const Words& words) {
@@ -269,29 +254,17 @@ Console::Lines Console::set_parameter(const Words& words) {
     }
     request.value = value.count;
   }
-  const auto result = unit_.ask<link::ParameterWritten>(request, longest_save);
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    return refuse(*refusal, parameter);
-  }
-  return {fmt::format(
-      "{} {}{}, saved", name,
-      scales_.text_of_parameter(parameter, std::get<link::ParameterWritten>(result).value),
-      scales_.unit_of_parameter(parameter))};
+  const auto written = require<link::ParameterWritten>(request, parameter, longest_save);
+  return {fmt::format("{} {}{}, saved", name, scales_.text_of_parameter(parameter, written.value),
+                      scales_.unit_of_parameter(parameter))};
 }
 
-Console::Lines Console::tare() try {
+Console::Lines Console::tare() {
   return text_of(unit::tare(unit_, scales_), scales_);
-} catch (const UnitRefusal& refusal) {
-  return refuse(refusal.what());
 }
 
 link::Telemetry Console::telemetry() {
-  const auto result = unit_.ask<link::Telemetry>(link::ReadTelemetry{});
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    throw process::ProcessError("the unit does not tell its state: " +
-                                words_of(*refusal, 0, scales_));
-  }
-  return std::get<link::Telemetry>(result);
+  return require<link::Telemetry>(link::ReadTelemetry{});
 }
 
 Console::Lines Console::refuse_usage(const std::string& name, const Words& words,
@@ -329,10 +302,6 @@ Console::Lines Console::refuse_value(std::size_t parameter, const std::string& r
 Console::Lines Console::refuse(const std::string& reason) {
   ++refused_;
   return {reason};
-}
-
-Console::Lines Console::refuse(const link::Refusal& refusal, std::size_t parameter) {
-  return refuse(words_of(refusal, parameter, scales_));
 }
 
 }  // namespace sonoglide::unit

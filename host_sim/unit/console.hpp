@@ -1,6 +1,7 @@
 /// The commands by which a person talks to a unit.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "host_sim/unit/live_plot.hpp"
 #include "host_sim/unit/stream_table.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_refusal.hpp"
 #include "host_sim/unit/unit_scales.hpp"
 
 namespace sonoglide::unit {
@@ -73,6 +75,12 @@ class Console {
   Lines step(const Words& words);
   Lines with_caveat(const std::string& answer) const;
 
+  /// As unit::require().
+  template <class Answer, class Request>
+  Answer require(const Request& request, std::size_t parameter = 0,
+                 std::chrono::milliseconds work = {}) {
+    return unit::require<Answer>(unit_, scales_, request, parameter, work);
+  }
   link::Telemetry telemetry();
   /// Of a command with other words than it takes.
   Lines refuse_usage(const std::string& name, const Words& words, const std::string& ranges = "");
@@ -85,8 +93,6 @@ class Console {
   /// Of a text that is no value of a parameter.
   Lines refuse_value(std::size_t parameter, const std::string& reason);
   Lines refuse(const std::string& reason);
-  /// @param parameter  of the value that was asked for
-  Lines refuse(const link::Refusal& refusal, std::size_t parameter);
 
   UnitLink& unit_;
   UnitScales scales_;

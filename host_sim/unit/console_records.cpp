@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "host_sim/process/file_error.hpp"
 #include "host_sim/unit/console.hpp"
 #include "host_sim/unit/step_recorder.hpp"
 #include "host_sim/unit/step_response.hpp"
@@ -39,20 +38,14 @@ Console::Lines Console::plot(const std::string& channel) {
 Console::Lines Console::begin_stream(const link::Stream& wanted,
                                      const std::optional<LivePlot>& plot) {
   // That of before ends first, so that its samples are not taken for those of the next.
-  const auto ended = unit_.stream({0, 1});
-  if (const auto* refusal = std::get_if<link::Refusal>(&ended)) {
-    return refuse(*refusal, 0);
-  }
+  taken<link::Streaming>(unit_.stream({0, 1}), scales_);
   Lines lines = take_rows();
   plot_.reset();
   if (wanted.channels == 0) {
     lines.push_back(fmt::format("stream off, samples lost: {}", table_.lost()));
     return lines;
   }
-  const auto begun = unit_.stream(wanted);
-  if (const auto* refusal = std::get_if<link::Refusal>(&begun)) {
-    return refuse(*refusal, 0);
-  }
+  taken<link::Streaming>(unit_.stream(wanted), scales_);
   const std::string columns = table_.begin(wanted);
   lines.push_back(plot ? plot->heading() : columns);
   if (plot) {
@@ -77,10 +70,7 @@ Console::Lines Console::trace(const Words& words) {
   if (!wanted || wanted->before >= state->records) {
     return refuse_usage("trace", words, fmt::format("; STEPS_BEFORE: 0 to {}", state->records - 1));
   }
-  const auto armed = unit_.ask<link::TraceArmed>(*wanted);
-  if (const auto* refusal = std::get_if<link::Refusal>(&armed)) {
-    return refuse(*refusal, 0);
-  }
+  require<link::TraceArmed>(*wanted);
   return {"trace waiting"};
 }
 
@@ -88,12 +78,8 @@ Console::Lines Console::save_trace(const link::TraceState& state, const std::str
   if (static_cast<link::TracePhase>(state.phase) != link::TracePhase::whole) {
     return refuse(text_of(state) + ": nothing to save");
   }
-  try {
-    TraceFile saved(file);
-    saved.write(read_trace(unit_, state), scales_, std::nullopt, caveat_);
-  } catch (const process::FileError& error) {
-    return refuse(error.what());
-  }
+  TraceFile saved(file);
+  saved.write(read_trace(unit_, state), scales_, std::nullopt, caveat_);
   return with_caveat(fmt::format("{} steps saved", state.records));
 }
 
@@ -113,22 +99,16 @@ Console::Lines Console::step(const Words& words) {
     }
     targets.at(i) = value.count;
   }
-  try {
-    std::optional<TraceFile> file;
-    if (words.size() == 3) {
-      file.emplace(words[2]);
-    }
-    const RecordedStep step = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
-    const StepResponse response = step_response(step, scales_);
-    if (file) {
-      file->write(step.trace, scales_, response, caveat_);
-    }
-    return with_caveat(text_of(response));
-  } catch (const UnitRefusal& refusal) {
-    return refuse(refusal.what());
-  } catch (const process::FileError& error) {
-    return refuse(error.what());
+  std::optional<TraceFile> file;
+  if (words.size() == 3) {
+    file.emplace(words[2]);
   }
+  const RecordedStep step = StepRecorder(unit_, scales_).step_between(targets[0], targets[1]);
+  const StepResponse response = step_response(step, scales_);
+  if (file) {
+    file->write(step.trace, scales_, response, caveat_);
+  }
+  return with_caveat(text_of(response));
 }
 
 }  // namespace sonoglide::unit

@@ -60,7 +60,8 @@ RecordedStep StepRecorder::step_between(std::uint32_t first, std::uint32_t secon
   require_target(first);
   require_target(second);
   if (first == second) {
-    throw UnitRefusal("both targets are the same; allowed: two different ones", true);
+    throw UnitRefusal("both targets are the same; allowed: two different ones",
+                      link::Reason::out_of_range);
   }
   const auto before = static_cast<std::uint16_t>(steps_recorded() / 4);
   if (static_cast<control::State>(telemetry().state) == control::State::off) {
@@ -75,7 +76,7 @@ void StepRecorder::require_target(std::uint32_t target) {
   const auto told = require<link::ParameterValue>(
       link::ReadParameter{static_cast<std::uint8_t>(target_parameter)});
   if (target < told.lowest || target > told.highest) {
-    throw UnitRefusal("target: allowed is " + range_of(told, scales_), true);
+    throw UnitRefusal("target: allowed is " + range_of(told, scales_), link::Reason::out_of_range);
   }
 }
 

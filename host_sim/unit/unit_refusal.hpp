@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -16,29 +17,47 @@ namespace sonoglide::unit {
 /// The unit answers, but refuses what it is asked, or has stopped by a fault.
 class UnitRefusal : public process::ProcessError {
  public:
-  explicit UnitRefusal(const std::string& words, bool out_of_range = false)
-      : ProcessError(words), out_of_range_(out_of_range) {}
+  explicit UnitRefusal(const std::string& words, std::optional<link::Reason> reason = std::nullopt)
+      : ProcessError(words), reason_(reason) {}
 
-  /// Of a value that the unit does not have: what() has its range.
-  bool out_of_range() const { return out_of_range_; }
+  bool has_reason(link::Reason reason) const { return reason_ == reason; }
 
  private:
-  bool out_of_range_;
+  std::optional<link::Reason> reason_;
 };
 
-/// @param parameter  of the value that is asked for
-/// @param work       of the unit, before it answers
+/// @param parameter  of the value that was asked for
+/// @throws UnitRefusal  the unit refuses
+template <class Answer>
+Answer taken(const UnitLink::Result<Answer>& result, const UnitScales& scales,
+             std::size_t parameter = 0) {
+  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
+    throw UnitRefusal(words_of(*refusal, parameter, scales),
+                      static_cast<link::Reason>(refusal->reason));
+  }
+  return std::get<Answer>(result);
+}
+
+/// @param work  of the unit, before it answers
 /// @throws process::ProcessError  the unit does not answer
 /// @throws UnitRefusal            it refuses
 template <class Answer, class Request>
 Answer require(UnitLink& unit, const UnitScales& scales, const Request& request,
                std::size_t parameter = 0, std::chrono::milliseconds work = {}) {
-  const auto result = unit.ask<Answer>(request, work);
-  if (const auto* refusal = std::get_if<link::Refusal>(&result)) {
-    throw UnitRefusal("the unit refuses: " + words_of(*refusal, parameter, scales),
-                      static_cast<link::Reason>(refusal->reason) == link::Reason::out_of_range);
+  return taken<Answer>(unit.ask<Answer>(request, work), scales, parameter);
+}
+
+/// As require(); absent where the unit keeps no such thing, or there has been none.
+template <class Answer, class Request>
+std::optional<Answer> ask_if_kept(UnitLink& unit, const UnitScales& scales,
+                                  const Request& request) try {
+  return require<Answer>(unit, scales, request);
+} catch (const UnitRefusal& refusal) {
+  if (refusal.has_reason(link::Reason::unknown_request) ||
+      refusal.has_reason(link::Reason::no_such_fault)) {
+    return std::nullopt;
   }
-  return std::get<Answer>(result);
+  throw;
 }
 
 }  // namespace sonoglide::unit
