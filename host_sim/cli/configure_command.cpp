@@ -33,8 +33,7 @@ void configure(const ConfigureOptions& options) {
   if (options.plant.empty()) {
     folder.withdraw(emulated::plant_header_name);
   } else {
-    const scene::Arithmetic arithmetic =
-        options.plant == "q31" ? scene::Arithmetic::q31 : scene::Arithmetic::float32;
+    const auto arithmetic = *scene::value_of(emulated::plant_arithmetics, options.plant);
     folder.write(emulated::plant_header_name,
                  input.with_places([&] { return emulated::plant_header(experiment, arithmetic); }));
   }

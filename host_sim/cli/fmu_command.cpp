@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,26 +24,19 @@ struct FmuOptions {
   bool quiet = false;
 };
 
-/// @param word  one of them
-template <class Value, std::size_t Count>
-Value named(const std::array<scene::Named<Value>, Count>& words, const std::string& word) {
-  return std::find_if(words.begin(), words.end() - 1,
-                      [&](const scene::Named<Value>& each) { return each.name == word; })
-      ->value;
-}
-
 void write(const FmuOptions& options) {
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();
   const scene::Scene& scene = experiment.plant;
-  const loop::Kind kind = named(loop::kinds, options.kind);
+  const loop::Kind kind = *scene::value_of(loop::kinds, options.kind);
   input.with_places([&] { loop::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
   output::OutputFolder folder(out.parent_path(), {out.filename().string()});
   const fmi::Parts parts = fmi::find_parts(fmi::folder_of_program());
-  folder.write(out.filename().string(),
-               fmi::make_fmu(experiment.nominal, kind, named(fmi::versions, options.version), parts,
-                             "sonoglide " SONOGLIDE_VERSION));
+  folder.write(
+      out.filename().string(),
+      fmi::make_fmu(experiment.nominal, kind, *scene::value_of(fmi::versions, options.version),
+                    parts, "sonoglide " SONOGLIDE_VERSION));
   folder.commit();
   if (!options.quiet) {
     if (kind != loop::Kind::plant) {

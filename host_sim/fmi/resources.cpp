@@ -35,13 +35,12 @@ Resources make_resources(const scene::Scene& scene, loop::Kind kind, const std::
 
 Resources read_resources(const std::filesystem::path& folder) {
   const std::string name = content_of(folder / Resources::kind_name);
-  for (const scene::Named<loop::Kind>& each : loop::kinds) {
-    if (each.name == name) {
-      return {content_of(folder / Resources::scene_name), each.value,
-              content_of(folder / Resources::token_name)};
-    }
+  const auto kind = scene::value_of(loop::kinds, name);
+  if (!kind) {
+    throw std::runtime_error((folder / Resources::kind_name).u8string() + ": names no kind of FMU");
   }
-  throw std::runtime_error((folder / Resources::kind_name).u8string() + ": names no kind of FMU");
+  return {content_of(folder / Resources::scene_name), *kind,
+          content_of(folder / Resources::token_name)};
 }
 
 }  // namespace sonoglide::fmi

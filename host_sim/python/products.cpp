@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -24,14 +25,11 @@ namespace py = pybind11;
 template <class Value, std::size_t Count>
 Value named(const std::array<scene::Named<Value>, Count>& words, const char* argument,
             const std::string& word) {
-  std::string allowed;
-  for (const scene::Named<Value>& each : words) {
-    if (each.name == word) {
-      return each.value;
-    }
-    allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : ", ", each.name);
+  if (const auto value = scene::value_of(words, word)) {
+    return *value;
   }
-  throw py::value_error(fmt::format("{} is \"{}\"; allowed: {}", argument, word, allowed));
+  throw py::value_error(fmt::format("{} is \"{}\"; allowed: \"{}\"", argument, word,
+                                    fmt::join(scene::words_of(words), "\", \"")));
 }
 
 /// -> the headers by their names

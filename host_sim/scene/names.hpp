@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "host_sim/scene/scene.hpp"
 
@@ -99,6 +101,27 @@ constexpr std::string_view name_of(const std::array<Named<Value>, Count>& names,
     }
   }
   return {};
+}
+
+/// The value that a word stands for; absent where it is none of these.
+template <class Value, std::size_t Count>
+constexpr std::optional<Value> value_of(const std::array<Named<Value>, Count>& names,
+                                        std::string_view word) {
+  for (const Named<Value>& each : names) {
+    if (each.name == word) {
+      return each.value;
+    }
+  }
+  return std::nullopt;
+}
+
+template <class Value, std::size_t Count>
+std::vector<std::string_view> words_of(const std::array<Named<Value>, Count>& names) {
+  std::vector<std::string_view> words;
+  for (const Named<Value>& each : names) {
+    words.push_back(each.name);
+  }
+  return words;
 }
 
 /// The unit that a name ends with, as `m/s` of `sliding_velocity_m_per_s` and of `_m_per_s`; empty of a pure

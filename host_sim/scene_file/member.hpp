@@ -1,7 +1,6 @@
 /// Members of a scene by their path, for the list of keys.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -79,15 +78,6 @@ constexpr Choice choice() {
             return std::nullopt;
           },
           [](scene::Scene& scene, std::size_t index) { of<Path...>(scene) = Names[index].value; }};
-}
-
-template <class Value, std::size_t Count>
-Words words_of(const std::array<scene::Named<Value>, Count>& names) {
-  Words words;
-  for (const scene::Named<Value>& each : names) {
-    words.push_back(each.name);
-  }
-  return words;
 }
 
 }  // namespace sonoglide::scene_file
