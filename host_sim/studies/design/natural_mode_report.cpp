@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -46,19 +47,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* name(configure::Quieting quieting) {
-  switch (quieting) {
-    case configure::Quieting::notch:
-      return "notch";
-    case configure::Quieting::ramp:
-      return "ramp";
-    case configure::Quieting::ramp_and_notch:
-      return "ramp_and_notch";
-    case configure::Quieting::nothing:
-      break;
-  }
-  return "nothing";
-}
+constexpr std::array<scene::Named<configure::Quieting>, 4> quietings = {{
+    {"nothing", configure::Quieting::nothing},
+    {"notch", configure::Quieting::notch},
+    {"ramp", configure::Quieting::ramp},
+    {"ramp_and_notch", configure::Quieting::ramp_and_notch},
+}};
 
 /// A swing by more than half cannot be: the ratio of a contact stays between -1 and 1.
 constexpr double largest_swing = 0.5;
@@ -321,7 +315,7 @@ ordered_json to_json(const NaturalModeStudy& mode) {
   for (const QuietDrive& drive : mode.drives) {
     json["drives"].push_back(
         {{"interpolation", scene::name_of(scene::interpolations, drive.interpolation)},
-         {"quieted_by", name(drive.quieting)},
+         {"quieted_by", scene::name_of(quietings, drive.quieting)},
          {"taps", drive.tap_count},
          {"changing_periods", drive.changing_periods},
          {"free_vibration_left", drive.left.left},
