@@ -9,41 +9,24 @@
 #include "host_sim/configure/plant_scales.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/scene/solver_methods.hpp"
-#include "tests/common/csv/csv.hpp"
+#include "tests/common/reference/open_loop.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::loop::open_loop_reference_test {
 namespace {
 
+namespace open_loop = tests::open_loop;
 using scene::Scene;
 using tests::on_steady_orbit;
 using tests::period_s;
 using tests::table_1;
 using tests::vibration_velocity_m_per_s;
 
-struct Values {
-  double displacement_m;
-  double velocity_m_per_s;
-  double friction_N;
-  double friction_ratio;
-  double friction_ratio_second_half;
-  double dissipation_ratio;
-  double dissipation_ratio_second_half;
-};
-
-Values reference(const std::string& name) {
-  const csv::Table table = csv::read_file(REFERENCE_OPEN_LOOP);
-  const csv::Row& row = table.row_of("scene", name);
-  return {row.number("x_end_m"),    row.number("v_end_m_per_s"), row.number("F_end_N"),
-          row.number("rho_all"),    row.number("rho_last"),      row.number("phi_fu_all"),
-          row.number("phi_fu_last")};
-}
-
 PowerRatios ratios(const Scene& scene, const EnergyBalance& energy) {
   return power_ratios(energy, scene.friction.limit_N(), scene.friction.sign_convention, period_s);
 }
 
-Values values(const Scene& scene) {
+open_loop::Values values(const Scene& scene) {
   const RunResult result = run(scene);
   const PowerRatios whole = ratios(scene, result.whole);
   const PowerRatios window = ratios(scene, result.window);
@@ -56,70 +39,28 @@ Values values(const Scene& scene) {
           window.dissipation_ratio};
 }
 
-Scene reference_scene(const std::string& name) {
+Scene scene_of(const open_loop::Scene& reference) {
   Scene scene = table_1();
-  if (name != "table1" && name != "table1_as_printed") {
-    scene.friction.contact_stiffness_N_per_m = 1e9;
-  }
-  if (name == "heavy_friction") {
-    scene.friction.normal_force_N = 2000.0;
-  }
-  if (name == "table1_as_printed") {
+  scene.friction.contact_stiffness_N_per_m = reference.contact_stiffness_N_per_m;
+  scene.friction.normal_force_N = reference.normal_force_N;
+  if (reference.vibration_sign < 0.0) {
     scene.friction.sign_convention = scene::SignConvention::as_printed;
   }
   return scene;
 }
 
-void expect_near(const Values& actual, const Values& expected, double relative) {
-  const auto close = [relative](double a, double b) { EXPECT_NEAR(a, b, relative * std::abs(b)); };
-  close(actual.displacement_m, expected.displacement_m);
-  close(actual.velocity_m_per_s, expected.velocity_m_per_s);
-  close(actual.friction_N, expected.friction_N);
-  close(actual.friction_ratio, expected.friction_ratio);
-  close(actual.friction_ratio_second_half, expected.friction_ratio_second_half);
-  close(actual.dissipation_ratio, expected.dissipation_ratio);
-  close(actual.dissipation_ratio_second_half, expected.dissipation_ratio_second_half);
+TEST(OpenLoopReferenceTest, HoldsToSevenDigitsAtTheDefaultTolerance) {
+  for (const open_loop::Scene& reference : open_loop::scenes) {
+    expect_known(values(scene_of(reference)), reference, 1e-7);
+  }
 }
 
-class OpenLoopReferenceTest : public testing::TestWithParam<std::string> {};
-
-TEST_P(OpenLoopReferenceTest, HoldsToNineDigitsAtATightTolerance) {
-  Scene scene = reference_scene(GetParam());
-  scene.solver.tolerance = 1e-12;
-  expect_near(values(scene), reference(GetParam()), 1e-9);
-}
-
-TEST_P(OpenLoopReferenceTest, HoldsToSevenDigitsAtTheDefaultTolerance) {
-  expect_near(values(reference_scene(GetParam())), reference(GetParam()), 1e-7);
-}
-
-TEST_P(OpenLoopReferenceTest, HoldsToFourDigitsAtALooseTolerance) {
-  Scene scene = reference_scene(GetParam());
-  scene.solver.tolerance = 1e-6;
-  const Values actual = values(scene);
-  const Values expected = reference(GetParam());
-  EXPECT_NEAR(actual.friction_ratio, expected.friction_ratio, 1e-4);
-  EXPECT_NEAR(actual.dissipation_ratio, expected.dissipation_ratio, 1e-4);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, OpenLoopReferenceTest,
-                         testing::Values("table1", "stiff_contact", "heavy_friction",
-                                         "table1_as_printed"),
-                         [](const auto& name) { return name.param; });
-
-TEST(OpenLoopRk4Test, ThePapersStepHoldsToSixDigits) {
-  for (const char* name : {"table1", "table1_as_printed"}) {
-    Scene scene = reference_scene(name);
-    scene.solver.method = scene::method_of<scene::solvers::Rk4>;
-    scene.solver.step_s = 1.667e-8;
-    const Values actual = values(scene);
-    const Values expected = reference(name);
-    const auto close = [](double a, double b) { EXPECT_NEAR(a / b, 1.0, 1e-6); };
-    close(actual.displacement_m, expected.displacement_m);
-    close(actual.friction_ratio, expected.friction_ratio);
-    close(actual.friction_ratio_second_half, expected.friction_ratio_second_half);
-    close(actual.dissipation_ratio, expected.dissipation_ratio);
-    close(actual.dissipation_ratio_second_half, expected.dissipation_ratio_second_half);
+/// All that units and scales may cost.
+TEST(OpenLoopReferenceTest, HoldsToNineDigitsAtATightTolerance) {
+  for (const open_loop::Scene& reference : open_loop::scenes) {
+    Scene scene = scene_of(reference);
+    scene.solver.tolerance = 1e-12;
+    expect_known(values(scene), reference, 1e-9);
   }
 }
 
@@ -166,10 +107,10 @@ const Setting settings[] = {
 class SolverTest : public testing::TestWithParam<Setting> {};
 
 TEST_P(SolverTest, IsTheOneThatTheSceneNames) {
-  Scene scene = reference_scene("table1");
+  Scene scene = table_1();
   scene.solver = GetParam().solver;
-  const Values actual = values(scene);
-  const Values expected = reference("table1");
+  const open_loop::Values actual = values(scene);
+  const open_loop::Values expected = known(open_loop::table_1);
   EXPECT_NEAR(actual.friction_ratio / expected.friction_ratio, 1.0, GetParam().error);
   EXPECT_NEAR(actual.dissipation_ratio / expected.dissipation_ratio, 1.0, GetParam().error);
 }
