@@ -28,9 +28,9 @@ struct TaylorMethod {
   template <class Model>
   using Solver = EventTaylor<Model, Order>;
   static std::string name() { return "Taylor" + std::to_string(Order); }
-  static constexpr double setting = is_single<Number> ? 1e-7 : 1e-13;
+  static constexpr double setting = is_single<Number> ? 1e-7 : 1e-15;
   static constexpr double coarse_setting = 1e-3;
-  static constexpr double smooth = is_single<Number> ? 3e-5 : 2e-11;
+  static constexpr double smooth = is_single<Number> ? 3e-5 : 1e-13;
   static constexpr double across = smooth;
 };
 
@@ -42,7 +42,7 @@ struct Rk4Method {
   static std::string name() { return "Rk4"; }
   static constexpr double setting = is_single<Number> ? 0.02 : 1e-3;
   static constexpr double coarse_setting = 0.3;
-  static constexpr double smooth = is_single<Number> ? 1e-4 : 1e-10;
+  static constexpr double smooth = is_single<Number> ? 1e-4 : 1e-11;
   static constexpr double across = is_single<Number> ? 5e-4 : 2e-6;
 };
 
@@ -54,7 +54,7 @@ struct Rk4EventMethod {
   static std::string name() { return "Rk4Event"; }
   static constexpr double setting = is_single<Number> ? 0.05 : 1e-3;
   static constexpr double coarse_setting = 0.3;
-  static constexpr double smooth = is_single<Number> ? 1e-4 : 1e-10;
+  static constexpr double smooth = is_single<Number> ? 1e-4 : 1e-11;
   static constexpr double across = smooth;
 };
 

@@ -1,4 +1,4 @@
-/// Runge–Kutta with located reversals: their number and place, and what it cannot do.
+/// Runge–Kutta with located reversals: their place, and what it cannot do.
 
 #include "firmware/plant/rk4/rk4_event.hpp"
 
@@ -22,36 +22,6 @@ static_assert(Rk4<Contact>::solves<friction::Coulomb<double>>);
 
 /// No reaction of friction and no spring: from rest v = a sin(tau), V = r + a sin(tau).
 const Contact prescribed = Case().contact_stiffness(0.5);
-
-std::uint64_t reversals(double drive_amplitude, double sliding_velocity, double step) {
-  auto solver = configured<Solver>(prescribed, step);
-  State<double> state;
-  NoAccount account;
-  EXPECT_EQ(advance(solver, lasting(20.0 * pi).driven(drive_amplitude).sliding(sliding_velocity),
-                    state, account)
-                .error,
-            Error::none);
-  return solver.cost().events;
-}
-
-TEST(Rk4EventReversal, TwoInEachPeriodOfAVibrationThatIsFaster) {
-  for (const double r : {0.5, -0.5, 0.01, -0.99}) {
-    EXPECT_EQ(reversals(1.0, r, 0.1), 20U) << r;
-  }
-}
-
-TEST(Rk4EventReversal, NoneWhereTheVibrationIsSlower) {
-  EXPECT_EQ(reversals(1.0, 1.001, 0.1), 0U);
-  EXPECT_EQ(reversals(0.0, 0.5, 0.1), 0U);
-}
-
-/// Both inside one step: the excursion lasts 2 sqrt(2 excess), down to a hundredth of the step.
-TEST(Rk4EventReversal, APairInsideOneStepIsFound) {
-  for (const double excess : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-    EXPECT_EQ(reversals(1.0, 1.0 - excess, 0.05), 20U) << excess;
-    EXPECT_EQ(reversals(1.0, excess - 1.0, 0.05), 20U) << excess;
-  }
-}
 
 /// V = r + sin(tau) is zero at pi + asin(r) and 2 pi - asin(r): steps end there, to the error of
 /// the method.

@@ -71,15 +71,6 @@ double distance(const Ran& a, const Ran& b, int periods) {
          std::abs(a.account.friction_integral - b.account.friction_integral) / (period * periods);
 }
 
-TEST(Strang, TheToleranceIsDelivered) {
-  const Ran exact = run<Taylor>(ordinary, 1e-15, 4, 0.3, start);
-  for (double tolerance = 1e-2; tolerance > 2e-8; tolerance /= 10.0) {
-    const Ran found = run<Solver>(ordinary, tolerance, 4, 0.3, start);
-    ASSERT_EQ(found.error, Error::none) << tolerance;
-    EXPECT_LT(distance(found, exact, 4), 10.0 * tolerance) << tolerance;
-  }
-}
-
 /// Friction too weak for its energy to show what its mean is; the contact turns twice in a step,
 /// and reaches its limit both ways in between.
 TEST(Strang, TheMeanFrictionOfAStiffContactThatTurnsTwiceInAStep) {
@@ -292,27 +283,6 @@ TEST(Strang, NoStepIsLongerThanTheLongest) {
   ASSERT_EQ(solver.advance(lasting(period).driven(1.0).sliding(0.3), state, account, watch).error,
             Error::none);
   EXPECT_NEAR(longest, period / 500.0, 1e-12);
-}
-
-/// Steps that are taken again leave no trace: what is shown joins without a gap.
-TEST(Strang, TheStepsShownJoin) {
-  auto solver = configured<Solver>(ordinary, 1e-6);
-  State<double> state = start;
-  State<double> last = start;
-  double end = 0.0;
-  NoAccount account;
-  auto watch = [&](const auto& step) {
-    EXPECT_NEAR(step.begin(), end, 1e-14);
-    const State<double> first = step.at(0.0);
-    EXPECT_NEAR(first.displacement, last.displacement, 1e-14);
-    EXPECT_NEAR(first.velocity, last.velocity, 1e-14);
-    EXPECT_NEAR(first.friction, last.friction, 1e-14);
-    last = step.at(step.length());
-    end = step.begin() + step.length();
-  };
-  ASSERT_EQ(solver.advance(lasting(period).driven(1.0).sliding(0.3), state, account, watch).error,
-            Error::none);
-  EXPECT_NEAR(end, period, 1e-14);
 }
 
 }  // namespace
