@@ -6,8 +6,8 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 
+#include "tests/common/dice/dice.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant::event_gauss_test {
@@ -42,36 +42,32 @@ Reached reached(const Contact& model, double tolerance, const Interval<double>& 
   return run;
 }
 
-/// The same sequence of weakly coupled plants on every machine.
-class Plants {
+/// Weakly coupled plants.
+class Plants : public tests::Dice {
  public:
-  double uniform(double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11U), -53);
-  }
+  Plants() : Dice(5489) {}
+
   Contact model() {
-    const double kappa = std::pow(10.0, uniform(-3.0, 1.0));
-    const double beta = std::pow(10.0, uniform(-8.0, -3.0)) / std::fmax(1.0, kappa);
-    const double sign = uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
-    const double damping = std::pow(10.0, uniform(-3.0, 0.3));
+    const double kappa = decades(1e-3, 10.0);
+    const double beta = decades(1e-8, 1e-3) / std::fmax(1.0, kappa);
+    const double sigma = sign();
+    const double damping = decades(1e-3, 2.0);
     return Case()
         .contact_stiffness(kappa)
         .friction_force(beta)
-        .vibration_sign(sign)
-        .damping(uniform(0.0, 1.0) < 0.5 ? 0.0 : damping)
-        .stiffness(std::pow(10.0, uniform(-3.0, 0.3)));
+        .vibration_sign(sigma)
+        .damping(chance(0.5) ? 0.0 : damping)
+        .stiffness(decades(1e-3, 2.0));
   }
   Interval<double> interval() {
-    const double acceleration = uniform(0.0, 1.0) < 0.5 ? 0.0 : uniform(-0.02, 0.02);
+    const double acceleration = chance(0.5) ? 0.0 : between(-0.02, 0.02);
     return lasting(period)
-        .from_phase(uniform(0.0, 6.28))
-        .driven(uniform(0.1, 2.0))
-        .sliding(uniform(-1.5, 1.5))
+        .from_phase(between(0.0, 6.28))
+        .driven(between(0.1, 2.0))
+        .sliding(between(-1.5, 1.5))
         .accelerating(acceleration);
   }
-  State<double> state() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
-
- private:
-  std::mt19937_64 engine_;
+  State<double> state() { return {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)}; }
 };
 
 /// Against another method; returns whether one panel did.
@@ -290,51 +286,6 @@ TEST(EventGauss, SolvesAnUndrivenContact) {
   EXPECT_NEAR(state.velocity, exact.velocity, 1e-9);
   EXPECT_NEAR(state.friction, exact.friction, 1e-9);
   EXPECT_NEAR(account.balance_residual(model, before, state), 0.0, 1e-8);
-}
-
-/// Compares the inside of a panel with Taylor's steps that end there.
-struct InsideObserver {
-  Taylor16& taylor;
-  const Interval<double>& interval;
-  double worst = 0.0;
-  double largest_friction = 0.0;
-
-  template <class Step>
-  void operator()(const Step& step) {
-    EXPECT_EQ(step.begin(), 0.0);
-    EXPECT_EQ(step.length(), interval.duration);
-    for (int i = 0; i <= 50; ++i) {
-      Interval<double> part = interval;
-      part.duration = step.length() * i / 50.0;
-      const State<double> exact = advanced(taylor, part, start);
-      const State<double> seen = step.at(part.duration);
-      worst = std::fmax(worst, std::abs(seen.displacement - exact.displacement));
-      worst = std::fmax(worst, std::abs(seen.velocity - exact.velocity));
-      worst = std::fmax(worst, std::abs(seen.friction - exact.friction));
-      largest_friction = std::fmax(largest_friction, std::abs(seen.friction));
-    }
-  }
-};
-
-TEST(EventGauss, ShowsTheInsideOfAPanel) {
-  auto gauss = configured<Gauss12>(weak, 1e-10);
-  auto taylor = configured<Taylor16>(weak, 1e-15);
-  InsideObserver inside{taylor, ordinary};
-  State<double> state = start;
-  NoAccount account;
-  ASSERT_EQ(gauss.advance(ordinary, state, account, inside).error, Error::none);
-  EXPECT_EQ(gauss.cost().steps, 1U);
-  EXPECT_LT(inside.worst, 1e-10);
-  EXPECT_LE(inside.largest_friction, 1.0);
-}
-
-TEST(EventGauss, SeeingAndAccountingChangeNoBit) {
-  const Reached run = reached<Gauss8>(weak, 1e-8, ordinary, start);
-  auto solver = configured<Gauss8>(weak, 1e-8);
-  const State<double> plain = advanced(solver, ordinary, start);
-  EXPECT_EQ(run.state.displacement, plain.displacement);
-  EXPECT_EQ(run.state.velocity, plain.velocity);
-  EXPECT_EQ(run.state.friction, plain.friction);
 }
 
 TEST(EventGauss, MirroredMotionIsTheMirrorImageBitForBit) {

@@ -13,7 +13,7 @@
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/controller_parameters.hpp"
 #include "host_sim/configure/friction/mean_friction.hpp"
-#include "tests/common/dice.hpp"
+#include "tests/common/dice/dice.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::configure::inverse_design_test {

@@ -6,7 +6,7 @@
 
 #include "host_sim/scene/scene.hpp"
 #include "tests/common/constants/pi.hpp"
-#include "tests/common/dice.hpp"
+#include "tests/common/dice/dice.hpp"
 
 namespace sonoglide::tests {
 

@@ -11,7 +11,7 @@
 
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/studies/identify/plant/study.hpp"
-#include "tests/common/dice.hpp"
+#include "tests/common/dice/dice.hpp"
 #include "tests/host_sim/studies/identify/plant/commissioned/commissioned.hpp"
 #include "tests/host_sim/studies/identify/plant/commissioned/recorded.hpp"
 

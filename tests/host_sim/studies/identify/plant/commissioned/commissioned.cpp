@@ -9,7 +9,7 @@
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/studies/identify/plant/study.hpp"
-#include "tests/common/dice.hpp"
+#include "tests/common/dice/dice.hpp"
 #include "tests/host_sim/studies/identify/plant/commissioned/recorded.hpp"
 
 namespace sonoglide::identify::plant::test {

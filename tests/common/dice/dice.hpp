@@ -16,6 +16,7 @@ class Dice {
   }
   double decades(double low, double high) { return low * std::pow(high / low, between(0.0, 1.0)); }
   bool chance(double probability) { return between(0.0, 1.0) < probability; }
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
 
  private:
   std::mt19937_64 engine_;
