@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "firmware/numeric/lane_group.hpp"
+#include "law_runs.hpp"
 #include "tests/common/constants/table_1_numbers.hpp"
-#include "tests/firmware/plant/runs/motion.hpp"
 
 namespace sonoglide::plant::dahl_test {
 namespace {
@@ -89,36 +89,25 @@ TEST(DahlArc, MeanFrictionAgreesWithTheWorkAtAnyStiffness) {
   }
 }
 
-/// Mean friction under prescribed sinusoidal motion, once it is periodic.
-double prescribed_ratio(double velocity_ratio, double dahl_number) {
-  const double k = 0.3;
-  const double amplitude = 1.0 / (1.0 - k);
-  auto solver =
-      configured<Taylor>(Case().contact_stiffness(dahl_number / amplitude).stiffness(k), 1e-14);
-  State<double> state = {-amplitude, 0.0, 0.0};
-  MeanFriction<double> settling;
-  MeanFriction<double> account;
-  EXPECT_EQ(run_periods(solver, 100, 1.0, velocity_ratio * amplitude, state, settling),
-            Error::none);
-  EXPECT_EQ(run_periods(solver, 1, 1.0, velocity_ratio * amplitude, state, account), Error::none);
-  return account.friction_integral / (2.0 * pi);
+double periodic_ratio(double velocity_ratio, double dahl_number) {
+  return prescribed_ratio(taylor(friction::Dahl<double>{dahl_number}, 1e-14), velocity_ratio, 100);
 }
 
 TEST(DahlPrescribedMotion, FrictionRatio) {
-  EXPECT_NEAR(prescribed_ratio(0.5, 0.404519756998724), 0.674948666956629, 1e-13);
-  EXPECT_NEAR(prescribed_ratio(0.1, 0.4046), 0.14875, 1e-5);
-  EXPECT_NEAR(prescribed_ratio(0.1, 2.023), 0.08814, 1e-5);
-  EXPECT_NEAR(prescribed_ratio(0.1, 10.0), 0.0661, 1e-4);
-  EXPECT_NEAR(prescribed_ratio(0.1, 100.0), 0.0640, 1e-4);
-  EXPECT_NEAR(prescribed_ratio(0.5, 2.023), 0.48927, 1e-5);
-  EXPECT_NEAR(prescribed_ratio(0.5, 10.0), 0.3502, 1e-4);
-  EXPECT_NEAR(prescribed_ratio(0.9, 0.4046), 0.97585, 1e-5);
-  EXPECT_NEAR(prescribed_ratio(0.9, 2.023), 0.94541, 1e-5);
-  EXPECT_NEAR(prescribed_ratio(0.9, 100.0), 0.7246, 1e-4);
+  EXPECT_NEAR(periodic_ratio(0.5, 0.404519756998724), 0.674948666956629, 1e-13);
+  EXPECT_NEAR(periodic_ratio(0.1, 0.4046), 0.14875, 1e-5);
+  EXPECT_NEAR(periodic_ratio(0.1, 2.023), 0.08814, 1e-5);
+  EXPECT_NEAR(periodic_ratio(0.1, 10.0), 0.0661, 1e-4);
+  EXPECT_NEAR(periodic_ratio(0.1, 100.0), 0.0640, 1e-4);
+  EXPECT_NEAR(periodic_ratio(0.5, 2.023), 0.48927, 1e-5);
+  EXPECT_NEAR(periodic_ratio(0.5, 10.0), 0.3502, 1e-4);
+  EXPECT_NEAR(periodic_ratio(0.9, 0.4046), 0.97585, 1e-5);
+  EXPECT_NEAR(periodic_ratio(0.9, 2.023), 0.94541, 1e-5);
+  EXPECT_NEAR(periodic_ratio(0.9, 100.0), 0.7246, 1e-4);
 }
 
 TEST(DahlPrescribedMotion, StiffContactTendsToCoulomb) {
-  EXPECT_NEAR(prescribed_ratio(0.5, 1e6), 1.0 / 3.0, 1e-5);
+  EXPECT_NEAR(periodic_ratio(0.5, 1e6), 1.0 / 3.0, 1e-5);
 }
 
 /// Table 1 started on its steady orbit: mean over the last of 20 ms.

@@ -12,14 +12,13 @@
 
 #include "firmware/plant/rk4/rk4_event.hpp"
 #include "firmware/plant/strang/equal_step_strang.hpp"
-#include "random.hpp"
-#include "tests/firmware/plant/runs/motion.hpp"
+#include "law_runs.hpp"
 
 namespace sonoglide::plant::iwan_test {
 namespace {
 
 using Law = friction::Iwan<double>;
-using PlantModel = Model<Law, Damped<double>, CosineDrive>;
+using PlantModel = LawModel<Law>;
 using Taylor = EventTaylor<PlantModel, 16>;
 using Forces = Law::Memory;
 
@@ -27,11 +26,6 @@ static_assert(Taylor::solves<Law>);
 static_assert(!Rk4<DahlModel<double>>::solves<Law>);
 static_assert(!Rk4Event<DahlModel<double>>::solves<Law>);
 static_assert(!EqualStepStrang<DahlModel<double>>::solves<Law>);
-
-PlantModel model_of(const Law& law, double friction_force = 0.0, double stiffness = 0.0,
-                    double sign = 1.0) {
-  return {{law, friction_force, sign}, {0.0}, stiffness};
-}
 
 /// Forces of all elements after a displacement that does not turn.
 Forces loaded(const Law& law, const Forces& forces, double displacement) {
@@ -77,16 +71,8 @@ TEST(Iwan, WorkIsTheIntegralOfTheForce) {
   }
 }
 
-/// Mean friction under prescribed sinusoidal motion, once it is periodic.
-double prescribed_ratio(const Law& law, double velocity_ratio, int settling_periods = 30) {
-  auto solver = configured<Taylor>(model_of(law), 1e-13);
-  RememberingState<Law> state = {{-1.0, 0.0, 0.0}, {}};
-  MeanFriction<double> settling;
-  MeanFriction<double> account;
-  EXPECT_EQ(run_periods(solver, settling_periods, 1.0, velocity_ratio, state, settling),
-            Error::none);
-  EXPECT_EQ(run_periods(solver, 1, 1.0, velocity_ratio, state, account), Error::none);
-  return account.friction_integral / (2.0 * pi);
+double periodic_ratio(const Law& law, double velocity_ratio, int settling_periods) {
+  return prescribed_ratio(taylor(law, 1e-13), velocity_ratio, settling_periods);
 }
 
 /// The same, element by element, by quadrature over the place r theta + sin theta, r < 1: an
@@ -120,7 +106,7 @@ TEST(Iwan, MeanUnderPrescribedVibrationIsThatOfQuadrature) {
     for (const double stiffness : {0.2, 0.7, 3.0, 40.0}) {
       for (const double r : {0.02, 0.3, 0.8}) {
         const Law law = {stiffness, n};
-        EXPECT_NEAR(prescribed_ratio(law, r, 80), quadrature_ratio(law, r), 1e-8)
+        EXPECT_NEAR(periodic_ratio(law, r, 80), quadrature_ratio(law, r), 1e-8)
             << n << ' ' << stiffness << ' ' << r;
       }
     }
@@ -130,7 +116,7 @@ TEST(Iwan, MeanUnderPrescribedVibrationIsThatOfQuadrature) {
 /// What is stuck elastically keeps its friction: (1 - kappa)_+ for one element.
 TEST(Iwan, VibrationAboutASlowSlideLeavesTheElasticFloor) {
   for (const double stiffness : {0.1, 0.4, 0.9, 1.5}) {
-    EXPECT_NEAR(prescribed_ratio({stiffness, 1}, 1e-3, 3000), std::max(0.0, 1.0 - stiffness), 5e-3);
+    EXPECT_NEAR(periodic_ratio({stiffness, 1}, 1e-3, 3000), std::max(0.0, 1.0 - stiffness), 5e-3);
     double floor = 0.0;
     const Law law = {stiffness, 4};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -141,26 +127,19 @@ TEST(Iwan, VibrationAboutASlowSlideLeavesTheElasticFloor) {
 }
 
 TEST(IwanLimits, Coulomb) {
-  EXPECT_NEAR(prescribed_ratio({3e4, 1}, 0.5, 2), 1.0 / 3.0, 1e-4);
-  EXPECT_NEAR(prescribed_ratio({3e4, 8}, 0.8, 2), 2.0 / pi * std::asin(0.8), 1e-4);
+  EXPECT_NEAR(periodic_ratio({3e4, 1}, 0.5, 2), 1.0 / 3.0, 1e-4);
+  EXPECT_NEAR(periodic_ratio({3e4, 8}, 0.8, 2), 2.0 / pi * std::asin(0.8), 1e-4);
 }
 
 TEST(IwanLimits, SinglePrecision) {
-  using Single = Model<friction::Iwan<float>, Damped<float>, CosineDrive>;
-  auto solver = configured<EventTaylor<Single, 8>>({{{0.7F, 3}, 0.0F, 1.0F}, {0.0F}, 0.0F}, 1e-6F);
-  RememberingState<friction::Iwan<float>> state = {{-1.0F, 0.0F, 0.0F}, {}};
-  MeanFriction<float> settling;
-  MeanFriction<float> account;
-  EXPECT_EQ(run_periods(solver, 30, 1.0F, 0.3F, state, settling), Error::none);
-  EXPECT_EQ(run_periods(solver, 1, 1.0F, 0.3F, state, account), Error::none);
-  EXPECT_NEAR(static_cast<double>(account.friction_integral) / (2.0 * pi),
+  EXPECT_NEAR(prescribed_ratio(taylor<8>(friction::Iwan<float>{0.7F, 3}, 1e-6), 0.3, 30),
               quadrature_ratio({0.7, 3}, 0.3), 2e-5);
 }
 
 /// Elements that do not slip are a spring: y'' = -(k + beta kappa) y.
 TEST(Iwan, StuckContactIsASpring) {
   const double frequency = std::sqrt(0.3 + 0.5 * 40.0);
-  auto solver = configured<Taylor>(model_of({40.0, 8}, 0.5, 0.3), 1e-14);
+  auto solver = taylor(Law{40.0, 8}, 1e-14, Case().friction_force(0.5).stiffness(0.3));
   RememberingState<Law> state = {{1e-4, 0.0, 0.0}, {}};
   state.memory.fill(40.0 / 8.0 * 1e-4);
   state = advanced(solver, lasting(9.7), state);
@@ -203,7 +182,8 @@ struct Peer {
 
 TEST(Iwan, ReversingContactAgreesWithAPeer) {
   for (const double sign : {1.0, -1.0}) {
-    const PlantModel model = model_of({2.5, 3}, 0.3, 0.4, sign);
+    const PlantModel model =
+        Case().friction_force(0.3).vibration_sign(sign).stiffness(0.4).of(Law{2.5, 3});
     const Interval<double> interval =
         lasting(9.0).from_phase(0.8).driven(1.0).sliding(0.4).accelerating(0.01);
     const Peer::Numbers expected = Peer::state(model, interval, {0.3, -0.2, 0.1, -0.2, 0.3});
@@ -219,51 +199,25 @@ TEST(Iwan, ReversingContactAgreesWithAPeer) {
   }
 }
 
-template <std::size_t Order>
-double mean_friction(double tolerance) {
-  auto solver = configured<EventTaylor<PlantModel, Order>>(model_of({2.5, 5}, 0.3, 0.4), tolerance);
-  RememberingState<Law> state;
-  MeanFriction<double> account;
-  EXPECT_EQ(run_periods(solver, 4, 1.0, 0.4, state, account), Error::none);
-  return account.friction_integral / (8.0 * pi);
-}
-
 TEST(Iwan, ToleranceIsThatOfTheMeanFriction) {
-  const double ratio = mean_friction<16>(1e-13);
-  EXPECT_NEAR(mean_friction<8>(1e-4), ratio, 1e-4);
-  EXPECT_NEAR(mean_friction<8>(1e-6), ratio, 1e-6);
-  EXPECT_NEAR(mean_friction<12>(1e-8), ratio, 1e-8);
-  EXPECT_NEAR(mean_friction<16>(1e-10), ratio, 1e-10);
+  expect_tolerance_is_that_of_the_mean(Law{2.5, 5});
 }
 
 TEST(Iwan, MirroredMotionIsTheMirrorImageBitForBit) {
-  auto solver = configured<Taylor>(model_of({2.5, 3}, 0.3, 0.4), 1e-12);
-  const auto one =
-      advanced(solver, lasting(9.0).from_phase(0.3).driven(1.0).sliding(0.4).accelerating(0.01),
-               {{0.3, -0.2, 0.0}, {0.1}});
-  const auto other =
-      advanced(solver, lasting(9.0).from_phase(0.3).driven(-1.0).sliding(-0.4).accelerating(-0.01),
-               {{-0.3, 0.2, 0.0}, {-0.1}});
-  EXPECT_EQ(one.displacement, -other.displacement);
-  EXPECT_EQ(one.velocity, -other.velocity);
-  EXPECT_EQ(one.memory[0], -other.memory[0]);
+  expect_mirror_image(Law{2.5, 3}, Forces{0.1});
 }
 
 RC_GTEST_PROP(IwanProperties, KeepsItsBoundsBalancesItsEnergyAndIsPassive, ()) {
   const Law law = {std::pow(10.0, between(-2.0, 3.0)), *rc::gen::inRange<std::size_t>(1, 9)};
-  const PlantModel model = model_of(law, between(0.0, 0.5), between(0.0, 2.0));
-  RememberingState<Law> state = {{between(-1.0, 1.0), between(-1.0, 1.0), 0.0}, {}};
+  const PlantModel model = random_case().of(law);
+  RememberingState<Law> before = random_motion(law);
   double stored = 0.0;
   for (std::size_t i = 0; i < law.elements; ++i) {
-    state.memory[i] = law.slip_limit(i) * between(-1.0, 1.0);
-    stored -= state.memory[i] * state.memory[i] / (2.0 * law.element_stiffness());
+    before.memory[i] = law.slip_limit(i) * between(-1.0, 1.0);
+    stored -= before.memory[i] * before.memory[i] / (2.0 * law.element_stiffness());
   }
-  const RememberingState<Law> before = state;
   auto solver = configured<Taylor>(model, 1e-12);
-  EnergyAccount<double> account;
-  RC_ASSERT(run_periods(solver, 2, between(0.0, 2.0), between(-2.0, 2.0), state, account) ==
-            Error::none);
-  RC_ASSERT(std::abs(account.balance_residual(model, before, state)) < 1e-9);
+  const auto [state, account] = balanced(solver, model, before, between(-2.0, 2.0));
   RC_ASSERT(std::abs(state.friction) <= 1.0 + 1e-15);
   for (std::size_t i = 0; i < law.elements; ++i) {
     RC_ASSERT(std::abs(state.memory[i]) <= law.slip_limit(i));

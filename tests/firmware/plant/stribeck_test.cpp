@@ -8,49 +8,26 @@
 #include <cmath>
 
 #include "firmware/friction/stribeck_friction_ratio.hpp"
-#include "random.hpp"
-#include "tests/firmware/plant/runs/motion.hpp"
+#include "law_runs.hpp"
 
 namespace sonoglide::plant::stribeck_test {
 namespace {
 
 using Law = friction::Stribeck<double>;
-using PlantModel = Model<Law, Damped<double>, CosineDrive>;
-using Taylor = EventTaylor<PlantModel, 16>;
-using FixedSteps = Rk4<PlantModel>;
-
-PlantModel model_of(const Law& law, double friction_force = 0.0, double stiffness = 0.0,
-                    double damping = 0.0) {
-  return {{law, friction_force, 1.0}, {damping}, stiffness};
-}
-
-template <class Solver>
-double prescribed_ratio(const Law& law, double velocity_ratio, double setting) {
-  auto solver = configured<Solver>(model_of(law), setting);
-  State<double> state = {-1.0, 0.0, 0.0};
-  MeanFriction<double> account;
-  EXPECT_EQ(run_periods(solver, 1, 1.0, velocity_ratio, state, account), Error::none);
-  return account.friction_integral / (2.0 * pi);
-}
+using PlantModel = LawModel<Law>;
 
 TEST(Stribeck, MeanUnderPrescribedVibration) {
   const Law law = {0.6, 0.2};
   for (const double ratio : {-0.3, 0.1, 0.5, 0.9, 1.5}) {
     const double expected = friction::stribeck_friction_ratio(ratio, 0.6, 0.2);
-    EXPECT_NEAR(prescribed_ratio<Taylor>(law, ratio, 1e-13), expected, 1e-12);
-    EXPECT_NEAR(prescribed_ratio<FixedSteps>(law, ratio, 1e-4), expected, 1e-4);
+    EXPECT_NEAR(prescribed_ratio(taylor(law, 1e-13), ratio), expected, 1e-12);
+    EXPECT_NEAR(prescribed_ratio(fixed_steps(law, 1e-4), ratio), expected, 1e-4);
   }
 }
 
 TEST(Stribeck, MeanInSinglePrecision) {
-  using Single = Model<friction::Stribeck<float>, Damped<float>, CosineDrive>;
-  auto solver =
-      configured<EventTaylor<Single, 8>>({{{0.6F, 0.2F}, 0.0F, 1.0F}, {0.0F}, 0.0F}, 1e-7F);
-  State<float> state = {-1.0F, 0.0F, 0.0F};
-  MeanFriction<float> account;
-  EXPECT_EQ(run_periods(solver, 1, 1.0F, 0.5F, state, account), Error::none);
-  EXPECT_NEAR(account.friction_integral / static_cast<float>(2.0 * pi),
-              friction::stribeck_friction_ratio(0.5F, 0.6F, 0.2F), 1e-5F);
+  EXPECT_NEAR(prescribed_ratio(taylor<8>(friction::Stribeck<float>{0.6F, 0.2F}, 1e-7), 0.5),
+              friction::stribeck_friction_ratio(0.5, 0.6, 0.2), 1e-5);
 }
 
 TEST(Stribeck, MeanWithoutItsCurveIsCoulombs) {
@@ -66,9 +43,9 @@ TEST(Stribeck, MeanOfOneCase) {
 TEST(Stribeck, WithoutItsCurveIsCoulomb) {
   const Interval<double> interval =
       lasting(30.0).from_phase(0.3).driven(1.0).sliding(0.3).accelerating(0.01);
-  auto solver = configured<Taylor>(model_of({}, 0.6, 0.2, 0.05), 1e-12);
-  auto coulomb = configured<EventTaylor<DampedCoulombModel<double>, 16>>(
-      Case().friction_force(0.6).damping(0.05).stiffness(0.2), 1e-12);
+  const Case c = Case().friction_force(0.6).damping(0.05).stiffness(0.2);
+  auto solver = taylor(Law(), 1e-12, c);
+  auto coulomb = configured<EventTaylor<DampedCoulombModel<double>, 16>>(c, 1e-12);
   const State<double> state = advanced(solver, interval, {0.4, 0.1, 0.0});
   const State<double> expected = advanced(coulomb, interval, {0.4, 0.1, 0.0});
   EXPECT_GT(coulomb.cost().events, 4U);
@@ -91,16 +68,17 @@ TEST(Stribeck, SlipWithAFallingForceGrows) {
   const double t = 12.0;
   const double expected =
       rest - rest * std::exp(growth * t) * (std::cos(w * t) - growth / w * std::sin(w * t));
-  auto taylor = configured<Taylor>(model_of({a, 0.0}, beta, k), 1e-13);
-  auto fixed = configured<FixedSteps>(model_of({a, 0.0}, beta, k), 1e-3);
-  EXPECT_NEAR(advanced(taylor, lasting(t).sliding(r), {}).displacement, expected, 1e-12);
+  const Case c = Case().friction_force(beta).stiffness(k);
+  auto exact = taylor(Law{a, 0.0}, 1e-13, c);
+  auto fixed = fixed_steps(Law{a, 0.0}, 1e-3, c);
+  EXPECT_NEAR(advanced(exact, lasting(t).sliding(r), {}).displacement, expected, 1e-12);
   EXPECT_NEAR(advanced(fixed, lasting(t).sliding(r), {}).displacement, expected, 1e-11);
-  EXPECT_EQ(taylor.cost().events, 0U);
+  EXPECT_EQ(exact.cost().events, 0U);
 }
 
 /// A contact that holds is loaded by its spring, phi = k r t / beta, and lets go at phi = 1.
 TEST(Stribeck, SticksUntilTheSpringPullsItLoose) {
-  auto solver = configured<Taylor>(model_of({0.4, 0.1}, 0.3, 0.5), 1e-13);
+  auto solver = taylor(Law{0.4, 0.1}, 1e-13, Case().friction_force(0.3).stiffness(0.5));
   const double r = 0.1;
   State<double> state = {0.0, -r, 0.0};
   state = advanced(solver, lasting(4.0).sliding(r), state);
@@ -118,11 +96,11 @@ TEST(Stribeck, DitherQuenchesStickSlip) {
   const double beta = 0.005;
   const double k = 4e-4;
   const double r = 0.2;
-  const PlantModel model = model_of(law, beta, k);
+  const Case c = Case().friction_force(beta).stiffness(k);
   State<double> quiet;
   State<double> dithered = {-1.0, 0.0, 0.0};
   NoAccount account;
-  auto without = configured<EventTaylor<PlantModel, 8>>(model, 1e-6);
+  auto without = taylor<8>(law, 1e-6, c);
   EXPECT_EQ(run_periods(without, 2000, 0.0, r, quiet, account), Error::none);
   const auto events_before = without.cost().events;
   EXPECT_EQ(run_periods(without, 500, 0.0, r, quiet, account), Error::none);
@@ -130,7 +108,7 @@ TEST(Stribeck, DitherQuenchesStickSlip) {
   EXPECT_GE(without.cost().events - events_before, 10U);
   EXPECT_LE(without.cost().events - events_before, 1000U);
 
-  auto with = configured<EventTaylor<PlantModel, 8>>(model, 1e-6);
+  auto with = taylor<8>(law, 1e-6, c);
   EXPECT_EQ(run_periods(with, 4000, 1.0, r, dithered, account), Error::none);
   const double rest = -beta / k * friction::stribeck_friction_ratio(r, law.fall, law.rise);
   EXPECT_NEAR(dithered.displacement, rest - 1.0, 0.05);
@@ -138,29 +116,16 @@ TEST(Stribeck, DitherQuenchesStickSlip) {
 }
 
 TEST(Stribeck, MirroredMotionIsTheMirrorImageBitForBit) {
-  auto solver = configured<Taylor>(model_of({0.6, 0.2}, 0.6, 0.2, 0.05), 1e-12);
-  const State<double> one =
-      advanced(solver, lasting(30.0).from_phase(0.3).driven(1.0).sliding(0.3).accelerating(0.01),
-               {0.4, 0.1, 0.0});
-  const State<double> other =
-      advanced(solver, lasting(30.0).from_phase(0.3).driven(-1.0).sliding(-0.3).accelerating(-0.01),
-               {-0.4, -0.1, 0.0});
-  EXPECT_EQ(one.displacement, -other.displacement);
-  EXPECT_EQ(one.velocity, -other.velocity);
+  expect_mirror_image(Law{0.6, 0.2}, 0.0);
 }
 
 RC_GTEST_PROP(StribeckProperties, BalancesItsEnergyAndIsPassive, ()) {
   const double fall = between(0.0, 1.5);
   const Law law = {fall, 4.0 / 27.0 * fall * fall * fall * between(1.0, 2.0)};
-  const PlantModel model = model_of(law, between(0.0, 0.5), between(0.0, 2.0), between(0.0, 0.3));
-  const State<double> before = {between(-1.0, 1.0), between(-1.0, 1.0), 0.0};
-  auto solver = configured<Taylor>(model, 1e-12);
-  State<double> state = before;
-  EnergyAccount<double> account;
-  RC_ASSERT(run_periods(solver, 2, between(0.0, 2.0), between(-2.0, 2.0), state, account) ==
-            Error::none);
-  RC_ASSERT(std::abs(account.balance_residual(model, before, state)) < 1e-9);
-  RC_ASSERT(account.friction_work >= -1e-9);
+  const PlantModel model = random_case().of(law);
+  auto solver = configured<EventTaylor<PlantModel, 16>>(model, 1e-12);
+  const auto moved = balanced(solver, model, random_motion(law), between(-2.0, 2.0));
+  RC_ASSERT(moved.account.friction_work >= -1e-9);
 }
 
 }  // namespace

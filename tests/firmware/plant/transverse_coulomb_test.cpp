@@ -10,57 +10,42 @@
 #include <cmath>
 
 #include "firmware/friction/transverse_vibration_ratio.hpp"
-#include "random.hpp"
-#include "tests/firmware/plant/runs/motion.hpp"
+#include "law_runs.hpp"
 
 namespace sonoglide::plant::transverse_coulomb_test {
 namespace {
 
 using Law = friction::TransverseCoulomb<double>;
-using PlantModel = Model<Law, Damped<double>, CosineDrive>;
-using Taylor = EventTaylor<PlantModel, 16>;
-using FixedSteps = Rk4<PlantModel>;
-
-PlantModel model_of(double friction_force = 0.0, double stiffness = 0.0, double damping = 0.0) {
-  return {{{}, friction_force}, {damping}, stiffness};
-}
-
-template <class Solver>
-double prescribed_ratio(double velocity_ratio, double setting) {
-  auto solver = configured<Solver>(model_of(), setting);
-  State<double> state = {-1.0, 0.0, 0.0};
-  MeanFriction<double> account;
-  EXPECT_EQ(run_periods(solver, 1, 1.0, velocity_ratio, state, account), Error::none);
-  return account.friction_integral / (2.0 * pi);
-}
+using PlantModel = LawModel<Law>;
 
 TEST(TransverseCoulomb, MeanUnderPrescribedVibrationIsTheClosedForm) {
   for (const double ratio : {1e-3, 0.02, 0.1, 0.3, 0.5, 0.8, 1.0, 3.0, 40.0}) {
     const double expected = friction::transverse_vibration_ratio(ratio);
-    EXPECT_NEAR(prescribed_ratio<Taylor>(ratio, 1e-13), expected, 1e-12) << ratio;
-    EXPECT_NEAR(prescribed_ratio<Taylor>(-ratio, 1e-13), -expected, 1e-12) << ratio;
+    EXPECT_NEAR(prescribed_ratio(taylor(Law(), 1e-13), ratio), expected, 1e-12) << ratio;
+    EXPECT_NEAR(prescribed_ratio(taylor(Law(), 1e-13), -ratio), -expected, 1e-12) << ratio;
   }
   for (const double ratio : {0.1, 0.5, 1.0}) {
-    EXPECT_NEAR(prescribed_ratio<FixedSteps>(ratio, 2.0 * pi / 1000.0),
+    EXPECT_NEAR(prescribed_ratio(fixed_steps(Law(), 2.0 * pi / 1000.0), ratio),
                 friction::transverse_vibration_ratio(ratio), 1e-9)
         << ratio;
   }
 }
 
 TEST(TransverseCoulomb, MeanIsThePublishedOne) {
-  EXPECT_NEAR(prescribed_ratio<Taylor>(0.1, 1e-10), 0.23442, 5e-6);
-  EXPECT_NEAR(prescribed_ratio<Taylor>(0.5, 1e-10), 0.64264, 5e-6);
-  EXPECT_NEAR(prescribed_ratio<Taylor>(1.0, 1e-10), 0.83463, 5e-6);
+  EXPECT_NEAR(prescribed_ratio(taylor(Law(), 1e-10), 0.1), 0.23442, 5e-6);
+  EXPECT_NEAR(prescribed_ratio(taylor(Law(), 1e-10), 0.5), 0.64264, 5e-6);
+  EXPECT_NEAR(prescribed_ratio(taylor(Law(), 1e-10), 1.0), 0.83463, 5e-6);
 }
 
 /// Nothing hides a reversal here: the formula keeps its fourth order.
 TEST(TransverseCoulomb, FixedStepsKeepTheirFourthOrder) {
   const Interval<double> interval =
       lasting(9.0).from_phase(0.3).driven(1.0).sliding(0.4).accelerating(0.01);
-  auto exact = configured<Taylor>(model_of(0.3, 0.4), 1e-14);
+  const Case c = Case().friction_force(0.3).stiffness(0.4);
+  auto exact = taylor(Law(), 1e-14, c);
   const double displacement = advanced(exact, interval, {0.3, -0.2, 0.0}).displacement;
   const auto error = [&](double step) {
-    auto solver = configured<FixedSteps>(model_of(0.3, 0.4), step);
+    auto solver = fixed_steps(Law(), step, c);
     return std::abs(advanced(solver, interval, {0.3, -0.2, 0.0}).displacement - displacement);
   };
   EXPECT_NEAR(std::log2(error(9.0 / 1024.0) / error(9.0 / 2048.0)), 4.0, 0.3);
@@ -69,26 +54,15 @@ TEST(TransverseCoulomb, FixedStepsKeepTheirFourthOrder) {
 TEST(TransverseCoulomb, ToleranceIsThatOfTheMeanFriction) {
   for (const double ratio : {0.003, 0.1, 0.7}) {
     const double expected = friction::transverse_vibration_ratio(ratio);
-    const auto mean = [&](auto solver) {
-      State<double> state = {-1.0, 0.0, 0.0};
-      MeanFriction<double> account;
-      EXPECT_EQ(run_periods(solver, 4, 1.0, ratio, state, account), Error::none);
-      return account.friction_integral / (8.0 * pi);
+    const auto mean = [&](const auto& solver) {
+      return mean_friction(solver, {-1.0, 0.0, 0.0}, ratio, 4);
     };
-    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 8>>(model_of(), 1e-4)), expected, 1e-4);
-    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 8>>(model_of(), 1e-6)), expected, 1e-6);
-    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 12>>(model_of(), 1e-8)), expected, 1e-8);
-    EXPECT_NEAR(mean(configured<EventTaylor<PlantModel, 16>>(model_of(), 1e-10)), expected, 1e-10);
+    expect_tolerance_is_that_of_the_mean(Law(), Case(), mean, expected);
   }
 }
 
 TEST(TransverseCoulomb, MeanInSinglePrecision) {
-  using Single = Model<friction::TransverseCoulomb<float>, Damped<float>, CosineDrive>;
-  auto solver = configured<EventTaylor<Single, 8>>({{{}, 0.0F}, {0.0F}, 0.0F}, 1e-6F);
-  State<float> state = {-1.0F, 0.0F, 0.0F};
-  MeanFriction<float> account;
-  EXPECT_EQ(run_periods(solver, 1, 1.0F, 0.1F, state, account), Error::none);
-  EXPECT_NEAR(static_cast<double>(account.friction_integral) / (2.0 * pi),
+  EXPECT_NEAR(prescribed_ratio(taylor<8>(friction::TransverseCoulomb<float>(), 1e-6), 0.1),
               friction::transverse_vibration_ratio(0.1), 1e-6);
 }
 
@@ -101,11 +75,11 @@ TEST(TransverseCoulomb, FreeMassIsBrakedAsInClosedForm) {
     const double g = std::asinh(velocity / r);
     return std::log(std::tanh(0.5 * g)) + std::cosh(g);
   };
-  auto taylor = configured<Taylor>(model_of(beta), 1e-14);
-  auto fixed = configured<FixedSteps>(model_of(beta), 1e-3);
+  auto exact = taylor(Law(), 1e-14, Case().friction_force(beta));
+  auto fixed = fixed_steps(Law(), 1e-3, Case().friction_force(beta));
   const Interval<double> interval = lasting(4.0).sliding(r);
   for (const State<double>& state :
-       {advanced(taylor, interval, {0.0, 1.0, 0.0}), advanced(fixed, interval, {0.0, 1.0, 0.0})}) {
+       {advanced(exact, interval, {0.0, 1.0, 0.0}), advanced(fixed, interval, {0.0, 1.0, 0.0})}) {
     EXPECT_NEAR(potential(1.0) - potential(state.velocity), beta * 4.0 / r, 1e-11);
     EXPECT_NEAR(state.friction, r / std::hypot(r, state.velocity), 1e-15);
   }
@@ -115,7 +89,6 @@ TEST(TransverseCoulomb, FreeMassIsBrakedAsInClosedForm) {
 TEST(TransverseCoulomb, AgreesWithAPeer) {
   using Numbers = std::array<double, 3>;
   namespace odeint = boost::numeric::odeint;
-  const PlantModel model = model_of(0.5, 0.4, 0.05);
   // r passes through 0 at 3.33.
   const Interval<double> interval =
       lasting(6.0).from_phase(0.8).driven(1.0).sliding(0.2).accelerating(-0.06);
@@ -129,7 +102,7 @@ TEST(TransverseCoulomb, AgreesWithAPeer) {
   odeint::integrate_adaptive(
       odeint::make_controlled(1e-14, 1e-14, odeint::runge_kutta_fehlberg78<Numbers>()), slope,
       expected, 0.0, 6.0, 1e-3);
-  auto solver = configured<Taylor>(model, 1e-14);
+  auto solver = taylor(Law(), 1e-14, Case().friction_force(0.5).damping(0.05).stiffness(0.4));
   State<double> state = {0.3, -0.2, 0.0};
   MeanFriction<double> account;
   EXPECT_EQ(advance(solver, interval, state, account).error, Error::none);
@@ -140,21 +113,12 @@ TEST(TransverseCoulomb, AgreesWithAPeer) {
 
 /// Every pull on the contact is the oscillator's own: no sliding velocity reverses the force on it.
 TEST(TransverseCoulomb, OscillatorIsTheSameEitherWay) {
-  auto solver = configured<Taylor>(model_of(0.6, 0.2, 0.05), 1e-12);
-  const State<double> one =
-      advanced(solver, lasting(30.0).from_phase(0.3).driven(1.0).sliding(0.3).accelerating(0.01),
-               {0.4, 0.1, 0.0});
-  const State<double> other =
-      advanced(solver, lasting(30.0).from_phase(0.3).driven(1.0).sliding(-0.3).accelerating(-0.01),
-               {0.4, 0.1, 0.0});
-  EXPECT_EQ(one.displacement, other.displacement);
-  EXPECT_EQ(one.velocity, other.velocity);
-  EXPECT_EQ(one.friction, -other.friction);
+  expect_mirror_image(Law(), 0.0);
 }
 
 /// At rest where nothing slides there is no direction of friction: said, not guessed.
 TEST(TransverseCoulomb, AtRestWithoutSlidingIsAnError) {
-  auto solver = configured<Taylor>(model_of(0.6), 1e-10);
+  auto solver = taylor(Law(), 1e-10, Case().friction_force(0.6));
   State<double> state;
   NoAccount account;
   EXPECT_EQ(advance(solver, lasting(1.0).driven(1.0), state, account).error, Error::not_finite);
@@ -162,14 +126,10 @@ TEST(TransverseCoulomb, AtRestWithoutSlidingIsAnError) {
 
 template <class Solver>
 void keeps_its_bound_and_balances_its_energy(double setting, double allowed) {
-  const PlantModel model = model_of(between(0.0, 0.8), between(0.0, 2.0), between(0.0, 0.3));
-  const State<double> before = {between(-1.0, 1.0), between(-1.0, 1.0), 0.0};
+  const PlantModel model = random_case().of(Law());
   auto solver = configured<Solver>(model, setting);
-  State<double> state = before;
-  EnergyAccount<double> account;
-  const double r = between(0.05, 2.0);
-  RC_ASSERT(run_periods(solver, 2, between(0.0, 2.0), r, state, account) == Error::none);
-  RC_ASSERT(std::abs(account.balance_residual(model, before, state)) < allowed);
+  const auto [state, account] =
+      balanced(solver, model, random_motion(Law()), between(0.05, 2.0), allowed);
   RC_ASSERT(std::abs(state.friction) <= 1.0);
   // What is taken, is taken from the pull and from the vibration.
   RC_ASSERT(account.sliding_work >= 0.0);
@@ -177,11 +137,11 @@ void keeps_its_bound_and_balances_its_energy(double setting, double allowed) {
 }
 
 RC_GTEST_PROP(TransverseCoulombProperties, KeepsItsBoundAndBalancesItsEnergy, ()) {
-  keeps_its_bound_and_balances_its_energy<Taylor>(1e-12, 1e-9);
+  keeps_its_bound_and_balances_its_energy<EventTaylor<PlantModel, 16>>(1e-12, 1e-9);
 }
 
 RC_GTEST_PROP(TransverseCoulombProperties, SoDoFixedSteps, ()) {
-  keeps_its_bound_and_balances_its_energy<FixedSteps>(1e-3, 1e-6);
+  keeps_its_bound_and_balances_its_energy<Rk4<PlantModel>>(1e-3, 1e-6);
 }
 
 }  // namespace

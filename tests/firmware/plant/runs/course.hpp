@@ -8,7 +8,7 @@ namespace sonoglide::plant {
 /// Numbers in double, rounded to a solver's scalar where they enter it. What is not said is 0.
 class Course {
  public:
-  constexpr explicit Course(double duration) : interval_{0.0, duration, 0.0, 0.0, 0.0} {}
+  constexpr explicit Course(double duration) : interval_{{0.0, duration, 0.0, 0.0, 0.0}} {}
 
   constexpr Course from_phase(double phase) const {
     Course course = *this;
@@ -30,6 +30,13 @@ class Course {
     course.interval_.sliding_acceleration = acceleration;
     return course;
   }
+  /// The force on a load.
+  constexpr Course pushed(double force, double force_rate = 0.0) const {
+    Course course = *this;
+    course.interval_.load_force = force;
+    course.interval_.load_force_rate = force_rate;
+    return course;
+  }
 
   constexpr double duration() const { return interval_.duration; }
 
@@ -40,9 +47,14 @@ class Course {
             static_cast<Scalar>(interval_.sliding_velocity),
             static_cast<Scalar>(interval_.sliding_acceleration)};
   }
+  template <class Scalar>
+  constexpr operator LoadedInterval<Scalar>() const {
+    return {Interval<Scalar>(*this), static_cast<Scalar>(interval_.load_force),
+            static_cast<Scalar>(interval_.load_force_rate)};
+  }
 
  private:
-  Interval<double> interval_;
+  LoadedInterval<double> interval_;
 };
 
 constexpr Course lasting(double duration) {

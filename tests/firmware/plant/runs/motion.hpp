@@ -35,7 +35,7 @@ Solver configured(const typename Solver::Model& model, typename Solver::Scalar s
 }
 
 template <class Solver>
-using StateFor = StateOf<typename Solver::Model::FrictionLaw>;
+using StateFor = typename Solver::Model::PlantState;
 
 template <class Solver, class Account>
 Outcome<typename Solver::Scalar> advance(Solver& solver,
