@@ -4,10 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
-#include <boost/numeric/odeint/stepper/generation.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -20,6 +16,7 @@
 #include "host_sim/scene/solver_methods.hpp"
 #include "tests/common/lugre.hpp"
 #include "tests/common/table_1.hpp"
+#include "tests/host_sim/loop/equations/by_peer.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 
 namespace sonoglide::loop::friction_profile_test {
@@ -59,113 +56,16 @@ Scene with_normal_force(Scene scene, const TimedProfile& profile) {
   return scene;
 }
 
-// The peer: x, x', phi = F/Fc(t) and the integral of F; the law's own equation, no exact solution
-// in the displacement, and a limit that changes all the time.
-
-using Numbers = std::array<double, 4>;
-
-struct Limit {
-  double value_N;
-  double slope_N_per_s;
-};
-
-/// Of the line that holds between two times.
-class Line {
- public:
-  Line(const Scene& scene, double begin_s, double end_s) : begin_s_(begin_s) {
-    constexpr double inside = 1e-9;
-    const double span_s = end_s - begin_s;
-    const auto near_begin = configure::contact_at(scene.friction, begin_s + inside * span_s);
-    const auto near_end = configure::contact_at(scene.friction, end_s - inside * span_s);
-    const double inner_s = (1.0 - 2.0 * inside) * span_s;
-    coefficient_slope_ = (near_end.coefficient - near_begin.coefficient) / inner_s;
-    normal_slope_ = (near_end.normal_force_N - near_begin.normal_force_N) / inner_s;
-    coefficient_ = near_begin.coefficient - inside * span_s * coefficient_slope_;
-    normal_force_N_ = near_begin.normal_force_N - inside * span_s * normal_slope_;
-  }
-
-  Limit at(double time_s) const {
-    const double mu = coefficient_ + (time_s - begin_s_) * coefficient_slope_;
-    const double normal_N = normal_force_N_ + (time_s - begin_s_) * normal_slope_;
-    return {mu * normal_N, mu * normal_slope_ + normal_N * coefficient_slope_};
-  }
-
- private:
-  double begin_s_;
-  double coefficient_;
-  double normal_force_N_;
-  double coefficient_slope_;
-  double normal_slope_;
-};
-
-double drive_N(const Scene& scene, double time_s) {
-  return scene.drive->force_amplitude_N * std::cos(2.0 * pi * carrier_Hz * time_s);
-}
-
-/// d phi / dt: Dahl's; what a falling limit leaves above it is cut off.
-double relative_rate(const Scene& scene, const Limit& limit, double velocity, double phi) {
-  if (!scene::is<scene::laws::Dahl>(scene.friction.law)) {
-    return 0.0;
-  }
-  const double stiffness = scene.friction.contact_stiffness_N_per_m;
-  const double rate =
-      (stiffness * (velocity - std::abs(velocity) * phi) - phi * limit.slope_N_per_s) /
-      limit.value_N;
-  return std::abs(phi) >= 1.0 && rate * phi > 0.0 ? 0.0 : rate;
-}
-
-/// From row to row of the profiles, and on to the end.
-Numbers by_peer(const Scene& scene) {
-  namespace odeint = boost::numeric::odeint;
-  std::vector<double> times_s = {0.0, scene.run.duration_s};
-  for (const auto* profile :
-       {&scene.friction.coefficient_profile, &scene.friction.normal_force_profile_N}) {
-    for (const scene::TimedValue& row : *profile) {
-      times_s.push_back(std::min(row.time_s, scene.run.duration_s));
-    }
-  }
-  std::sort(times_s.begin(), times_s.end());
-  const bool dahl = scene::is<scene::laws::Dahl>(scene.friction.law);
-  const double sliding = scene.sliding.profile.front().velocity_m_per_s;
-  Numbers at{};
-  double last_limit_N = 1.0;
-  for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
-    if (!(times_s[i + 1] > times_s[i])) {
-      continue;
-    }
-    const Line line(scene, times_s[i], times_s[i + 1]);
-    const double limit_N = line.at(times_s[i]).value_N;
-    at[2] = std::clamp(at[2] * last_limit_N / limit_N, -1.0, 1.0);
-    const auto slope = [&](const Numbers& now, Numbers& rate, double time_s) {
-      const Limit limit = line.at(time_s);
-      const double velocity = sliding + now[1];
-      const double sign = velocity < 0.0 ? -1.0 : 1.0;
-      const double force_N = limit.value_N * (dahl ? std::clamp(now[2], -1.0, 1.0) : sign);
-      rate = {now[1],
-              (drive_N(scene, time_s) - scene.plant.damping_N_s_per_m * now[1] -
-               scene.plant.stiffness_N_per_m * now[0] - force_N) /
-                  scene.plant.mass_kg,
-              relative_rate(scene, limit, velocity, now[2]), force_N};
-    };
-    odeint::integrate_adaptive(
-        odeint::make_controlled<odeint::runge_kutta_dopri5<Numbers>>(1e-17, 1e-12), slope, at,
-        times_s[i], times_s[i + 1], 1e-9);
-    at[2] = std::clamp(at[2], -1.0, 1.0);
-    last_limit_N = line.at(times_s[i + 1]).value_N;
-  }
-  return at;
-}
-
 /// In parts of the vibration, and of the largest limit.
 void expect_peers_motion(const Scene& scene, double allowed) {
-  const Numbers expected = by_peer(scene);
+  const equations::Motion expected = equations::by_peer(scene);
   const RunResult result = run_logged(scene).result;
   const double velocity = vibration_velocity_m_per_s(scene.plant, 384.0);
   const double limit_N = scene.friction.largest_limit_N();
-  EXPECT_NEAR(result.final_state.displacement_m, expected[0],
+  EXPECT_NEAR(result.final_state.displacement_m, expected.displacement_m,
               allowed * velocity / (2.0 * pi * carrier_Hz));
-  EXPECT_NEAR(result.final_state.velocity_m_per_s, expected[1], allowed * velocity);
-  EXPECT_NEAR(result.whole.friction_impulse_N_s, expected[3],
+  EXPECT_NEAR(result.final_state.velocity_m_per_s, expected.velocity_m_per_s, allowed * velocity);
+  EXPECT_NEAR(result.whole.friction_impulse_N_s, expected.impulse_N_s,
               allowed * limit_N * scene.run.duration_s);
 }
 
