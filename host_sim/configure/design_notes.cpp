@@ -232,8 +232,8 @@ void add_tracking_note(const ControlDesign& design, std::vector<std::string>& no
   const auto* mode = design.in_mode<FeedforwardDesign>();
   if (design.tracks && mode != nullptr && (mode->free_mode || mode->left > audible)) {
     notes.push_back(
-        "The friction is learnt while the drive dips, and the natural mode rings then, which no "
-        "interval of the friction allows for: Fc may be off by far more than its interval says.");
+        "While the drive dips to measure the friction force Fc, the natural mode rings and moves the mean "
+        "force. The interval of Fc does not include this error.");
   }
   if (design.tracks && design.tracking_unsettled > 0.0) {
     notes.push_back(fmt::format(

@@ -47,8 +47,8 @@ std::string held_head(const TargetUnit& unit, const char* name) {
 
 namespace {
 
-/// Whether the drive stands at an end of its range though the ratio is beyond its target: the friction that the
-/// controller reads is not the true one.
+/// Whether the drive stands at an end of its range though the ratio, or force, is beyond its target: what the
+/// controller reads or believes is wrong.
 bool is_at_wrong_end(const report::StepMetrics& step) {
   if (step.settling_time_s || step.least_friction || !step.limit_seen_by_controller ||
       std::abs(step.steady_error) <= step.ripple) {
@@ -83,7 +83,8 @@ std::string limit_text(const report::StepMetrics& step) {
                 : fmt::format(" (no vibration gives a ratio below {:.3g})", least->ratio);
   }
   if (is_at_wrong_end(step)) {
-    text += " (by a wrong reading or friction force: the true ratio is beyond the target)";
+    text +=
+        " (by what the controller reads or believes wrongly: the true value is beyond the target)";
   }
   constexpr double little = 0.05;  // of a friction that has been learnt
   if (step.limit == control::Limit::mismatch && step.mismatch &&

@@ -13,7 +13,10 @@
 namespace sonoglide::scene_file {
 namespace {
 
-constexpr std::string_view form = "allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key";
+std::string_view form(const Location& place) {
+  return place.file == "--vary" ? "allowed: KEY=FROM:TO:COUNT, KEY=FROM:TO:COUNT:log or KEY=A,B,..."
+                                : "allowed: TABLE.KEY=VALUE, or TABLE.KEY= to remove the key";
+}
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -46,7 +49,7 @@ std::string unquoted(const std::string& path, const Location& place) {
   try {
     holder = parse_toml(path + " = 0", place.file);
   } catch (const SceneError&) {
-    throw SceneError(place, path, fmt::format("is no name of a key; {}", form));
+    throw SceneError(place, path, fmt::format("is no name of a key; {}", form(place)));
   }
   std::string names;
   const toml::table* table = &holder;
@@ -56,7 +59,7 @@ std::string unquoted(const std::string& path, const Location& place) {
     table = only->second.as_table();
   }
   if (table != nullptr) {
-    throw SceneError(place, path, fmt::format("more than one key; {}", form));
+    throw SceneError(place, path, fmt::format("more than one key; {}", form(place)));
   }
   return names;
 }
@@ -69,12 +72,13 @@ void split_path(OverriddenKey& target, const std::string& path) {
   const int most_dots = table != nullptr && table->of_others ? 2 : 1;
   if (path.find('[') != std::string::npos ||
       std::count(path.begin(), path.end(), '.') > most_dots) {
-    throw SceneError(target.place, path, fmt::format("a part of a value cannot be set; {}", form));
+    throw SceneError(target.place, path,
+                     fmt::format("a part of a value cannot be set; {}", form(target.place)));
   }
   if (dot == std::string::npos) {
     throw SceneError(target.place, path,
                      find_table(path) != nullptr
-                         ? fmt::format("a whole table cannot be set; {}", form)
+                         ? fmt::format("a whole table cannot be set; {}", form(target.place))
                          : unknown_table(path));
   }
   target.key = path.substr(dot + 1);
@@ -107,7 +111,8 @@ OverriddenKey parse_overridden_key(const std::string& text, Location place) {
   OverriddenKey target;
   target.place = std::move(place);
   if (text.empty()) {
-    throw SceneError(target.place, target.place.file, fmt::format("no key; {}", form));
+    throw SceneError(target.place, target.place.file,
+                     fmt::format("no key; {}", form(target.place)));
   }
   const std::string path = unquoted(text, target.place);
   split_path(target, path);
@@ -120,7 +125,7 @@ Override parse_override(const std::string& text, std::size_t ordinal) {
   const std::string path = text.substr(0, equals);
   const Location place{"--set", ordinal, 1};
   if (equals == std::string::npos && !path.empty()) {
-    throw SceneError(place, path, fmt::format("no value; {}", form));
+    throw SceneError(place, path, fmt::format("no value; {}", form(place)));
   }
   OverriddenKey target = parse_overridden_key(path, place);
   const std::string value = text.substr(equals + 1);

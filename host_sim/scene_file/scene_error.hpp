@@ -7,7 +7,7 @@
 
 namespace sonoglide::scene_file {
 
-/// A place in a scene file, or in the command line: file "--set", line the ordinal of the option.
+/// A place in a scene file, or in the command line: file "--set" or "--vary", line the ordinal of the option.
 struct Location {
   std::string file;
   std::size_t line = 1;

@@ -28,8 +28,11 @@ std::string count_of(const toml::node& node) {
 }  // namespace
 
 bool is_earlier(const GivenValue& a, const GivenValue& b) {
-  return std::tuple(a.overridden, a.key_place.line, a.key_place.column) <
-         std::tuple(b.overridden, b.key_place.line, b.key_place.column);
+  const auto place = [](const GivenValue& given) {
+    return std::tuple(given.overridden, given.value == nullptr, given.key_place.line,
+                      given.key_place.column);
+  };
+  return place(a) < place(b);
 }
 
 const GivenValue* TableCursor::find(std::string_view key) const {

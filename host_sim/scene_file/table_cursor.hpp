@@ -112,7 +112,7 @@ class TableCursor {
   const SceneTable* table_;
 };
 
-/// Whether one value stands before another, options after the file.
+/// Whether one value stands before another: the file comes first, then --set, then --vary.
 bool is_earlier(const GivenValue& a, const GivenValue& b);
 
 }  // namespace sonoglide::scene_file

@@ -11,6 +11,7 @@
 #include "host_sim/process/serial_port.hpp"
 #include "host_sim/unit/plant_traces.hpp"
 #include "host_sim/unit/unit_link.hpp"
+#include "host_sim/unit/unit_refusal.hpp"
 
 namespace sonoglide::commission {
 
@@ -50,8 +51,14 @@ plant::PlantStudy study(const std::string& device, const configure::Experiment& 
   }
   constexpr double recording = 0.5;  // of the work
   const std::vector<double> targets = plant::targets(experiment.nominal);
-  const auto traces =
-      unit::record_plant(link, targets, [&](double part) { progress(recording * part); });
+  const auto traces = [&] {
+    try {
+      return unit::record_plant(link, targets, [&](double part) { progress(recording * part); });
+    } catch (const unit::UnitRefusal& refusal) {
+      throw process::ProcessError(
+          fmt::format("{}: the unit refuses: {}", process::printable(device), refusal.what()));
+    }
+  }();
   const char* const unit = experiment.nominal.controller->holds_force() ? " N" : "";
   return plant::study(experiment, stretches_of(traces, targets, unit),
                       [&](double part) { progress(recording + (1.0 - recording) * part); });

@@ -37,9 +37,7 @@ int step_periods(double natural_per_carrier) {
 scene::Scene fed_forward(scene::Scene scene) {
   scene.controller->vibration.reset();
   scene.controller->calibration_s = 0.0;
-  if (scene.controller->friction == scene::FrictionSource::calibrated) {
-    scene.controller->friction.reset();
-  }
+  scene.controller->friction.reset();
   scene.controller->relearn_every_s.reset();
   scene.sensor.vibration.reset();
   if (!scene.sensor.force) {
@@ -165,6 +163,13 @@ bool is_better(const QuietDrive& a, const QuietDrive& b) {
          std::tuple(b.plants.never, b.plants.late, b.changing_periods);
 }
 
+/// No observer is in 16 bits.
+void widen(scene::Controller& controller) {
+  if (controller.arithmetic == scene::Arithmetic::q15) {
+    controller.arithmetic = scene::Arithmetic::q31;
+  }
+}
+
 /// @param nominal  a trial at the scene's carrier
 std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_range) {
   const configure::NominalPlant plant = configure::nominal_plant(nominal);
@@ -177,6 +182,7 @@ std::optional<BiasedDrive> biased_drive(scene::Scene nominal, double stiffness_r
   BiasedDrive biased;
   nominal.controller->vibration = scene::VibrationControl::damped;
   nominal.controller->shaping = std::nullopt;
+  widen(*nominal.controller);
   nominal.sensor.vibration = scene::VibrationSensor::velocity;
   biased.limit_N = configure::wanted_bias_N(nominal, plant);
   nominal.drive->bias_limit_N = biased.limit_N;
@@ -223,8 +229,7 @@ void equip(scene::Scene& loop, const RecommendedLoop& recommended) {
     loop.drive->max_force_slew_N_per_s.reset();
   }
   if (means.sensorless || means.biased) {
-    scene::Arithmetic& arithmetic = loop.controller->arithmetic;
-    arithmetic = arithmetic == scene::Arithmetic::q15 ? scene::Arithmetic::q31 : arithmetic;
+    widen(*loop.controller);
   }
 }
 

@@ -103,7 +103,7 @@ Advice mode_advice(const NaturalModeStudy& mode) {
 }
 
 /// Of the controller of damped_by_force.toml: float32 on a Cortex-M4F to Q31 on a Cortex-M3.
-constexpr const char* observer_cost = "1091 to 2072 instructions a period and 18 kB";
+constexpr const char* observer_cost = "1090 to 2075 instructions a period and 18 kB";
 
 Advice controller_advice(const NaturalModeStudy& mode) {
   const QuietDrive& best = mode.drives[mode.best_drive];
@@ -160,7 +160,8 @@ std::vector<std::pair<std::string, std::vector<std::string>>> lines_by_table(
 Advice keys_advice(const RecommendedLoop& loop) {
   std::string sentence = "For the recommended loop ";
   if (!loop.leaves.empty()) {
-    sentence += fmt::format("leave out {}, where it is given, and ", fmt::join(loop.leaves, ", "));
+    sentence +=
+        fmt::format("leave out {}, if the scene has them, and ", fmt::join(loop.leaves, ", "));
   }
   sentence +=
       "write these lines below the header of each table, in place of lines with the same keys:";

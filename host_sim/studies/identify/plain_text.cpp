@@ -87,14 +87,18 @@ std::string_view trimmed(std::string_view text) {
 std::string shortened(std::string_view text) {
   constexpr std::size_t most = 40;
   text = trimmed(text);
-  std::size_t size = std::min(most, text.size());
-  const auto continues = [&](std::size_t at) {
-    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U;
-  };
-  while (size > 0 && continues(size)) {
-    --size;
+  if (text.size() <= most) {
+    return process::printable(text);
   }
-  return process::printable(text.substr(0, size));
+  const auto continues = [&](std::size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xc0U) == 0x80U;
+  };
+  constexpr std::size_t longest_character = 4;
+  std::size_t cut = 0;
+  while (cut < longest_character && continues(most - cut)) {
+    ++cut;
+  }
+  return process::printable(text.substr(0, cut < longest_character ? most - cut : most));
 }
 
 std::string lower_case(std::string_view text) {

@@ -88,7 +88,7 @@ std::vector<scene_file::VariedValue> varied_values(const Factors& factors) {
 
 }  // namespace
 
-/// Errors come with the place of the option --vary that a varied value counts as.
+/// A varied value has the place "--vary", line its ordinal: the error is told at its key of [tolerance].
 void Task::fail_at(const scene_file::SceneError& error, const Factors& factors) const {
   const std::string key = error.file() == "--vary"
                               ? "tolerance." + tolerances()[error.line() - 1].key

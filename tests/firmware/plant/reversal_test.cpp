@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "firmware/plant/rk4/rk4.hpp"
 #include "firmware/plant/rk4/rk4_event.hpp"
 #include "tests/firmware/plant/runs/motion.hpp"
 
@@ -19,7 +20,7 @@ using Taylor = EventTaylor<Contact, 12>;
 const Contact prescribed = Case().contact_stiffness(0.5);
 
 /// smallest_excess: of the vibration over a slide against it, with a pair of reversals 2 sqrt(2
-/// excess) apart, for Runge-Kutta down to a hundredth of the step.
+/// excess) apart, for Runge-Kutta down to a thirty-fifth of the step.
 struct ByTaylor {
   using Solver = Taylor;
   static constexpr const char* name = "Taylor";
@@ -107,6 +108,26 @@ TEST(ReversalByTaylor, AStiffContactAtRestTakesFewSteps) {
   EXPECT_EQ(end.friction, 0.0);
   EXPECT_GE(solver.cost().steps, 1U);
   EXPECT_LT(solver.cost().steps, 200U);
+}
+
+/// A stuck contact that rings many times in each carrier period.
+TEST(ReversalByTaylor, ManyInEachPeriodAgreeWithSmallFixedSteps) {
+  const Contact model = Case().contact_stiffness(3e3).friction_force(0.9).stiffness(0.1);
+  const Interval<double> interval = lasting(2.0 * pi).driven(0.4);
+  const State<double> start = {0.0, 0.01, 0.0};
+  auto taylor = configured<EventTaylor<Contact, 16>>(model, 1e-14);
+  auto rk4 = configured<Rk4<Contact>>(model, 1e-5);
+  State<double> exact = start;
+  State<double> fixed = start;
+  MeanFriction<double> exact_account;
+  MeanFriction<double> fixed_account;
+  EXPECT_EQ(advance(taylor, interval, exact, exact_account).error, Error::none);
+  EXPECT_EQ(advance(rk4, interval, fixed, fixed_account).error, Error::none);
+  EXPECT_GT(taylor.cost().events, 50U);
+  EXPECT_LE(taylor.cost().events, 110U);  // 2 sqrt(beta kappa) = 104 by the ringing
+  EXPECT_NEAR(exact.displacement, fixed.displacement, 1e-9);
+  EXPECT_NEAR(exact.friction, fixed.friction, 1e-5);
+  EXPECT_NEAR(exact_account.friction_integral, fixed_account.friction_integral, 1e-6);
 }
 
 }  // namespace

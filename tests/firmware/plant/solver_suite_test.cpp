@@ -45,6 +45,8 @@ constexpr double duration = 7.0;
 
 template <class Scalar>
 using FreeOscillator = Model<friction::None<Scalar>, Undamped<Scalar>, NoDrive>;
+static_assert(sizeof(FreeOscillator<double>) == sizeof(double),
+              "only the stiffness is a parameter");
 
 /// A plant without what does not act has the same bits.
 TYPED_TEST(OscillatorSuite, FreeOscillation) {

@@ -389,7 +389,7 @@ TEST(LimitTextTest, TellsADriveAtTheWrongEnd) {
   const auto told = [&](Limit limit, double steady_error) {
     step.limit = limit;
     step.steady_error = steady_error;
-    return limit_text(step).find("the true ratio is beyond the target") != std::string::npos;
+    return limit_text(step).find("the true value is beyond the target") != std::string::npos;
   };
   for (const Limit limit : {Limit::actuator, Limit::voltage, Limit::current}) {
     EXPECT_TRUE(told(limit, -0.1));

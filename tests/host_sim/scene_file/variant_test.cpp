@@ -33,13 +33,27 @@ std::vector<VariedValue> values(const Numbers& numbers) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// The scene in full or the whole error.
+/// What an error of a --set is, were its option a --vary behind some overrides.
+std::string as_varied(const SceneError& error, std::size_t overrides) {
+  const std::string form_of_set = "TABLE.KEY=VALUE, or TABLE.KEY= to remove the key";
+  std::string message = error.message();
+  if (const std::size_t at = message.find(form_of_set); at != std::string::npos) {
+    message.replace(at, form_of_set.size(),
+                    "KEY=FROM:TO:COUNT, KEY=FROM:TO:COUNT:log or KEY=A,B,...");
+  }
+  return SceneError({"--vary", error.line() - overrides, error.column()},
+                    error.key() == "--set" ? "--vary" : error.key(), message)
+      .what();
+}
+
+/// The scene in full or the whole error, as if all options but the first few were --vary.
 template <class Read>
-std::string outcome(const Read& read) {
+std::string outcome(std::size_t overrides, const Read& read) {
   try {
     return to_json(read()).dump();
   } catch (const SceneError& error) {
-    return error.what();
+    const bool varied = error.file() == "--set" && error.line() > overrides;
+    return varied ? as_varied(error, overrides) : error.what();
   }
 }
 
@@ -50,8 +64,9 @@ void expect_as_by_text(const std::string& text, const Texts& overrides, const Te
   for (std::size_t i = 0; i < keys.size(); ++i) {
     all.push_back(option(keys[i], numbers[i]));
   }
-  const std::string by_text = outcome([&] { return read_text(text, "a/s.toml", all); });
-  const std::string by_number = outcome([&] {
+  const std::string by_text =
+      outcome(overrides.size(), [&] { return read_text(text, "a/s.toml", all); });
+  const std::string by_number = outcome(overrides.size(), [&] {
     const Document document({"a/s.toml", text}, overrides, keys);
     return read(document, values(numbers));
   });
@@ -119,9 +134,10 @@ TEST(VariantTest, AnUnusedKeyIsAnErrorAtItsOption) {
     read(document, values({1e-8}));
     FAIL() << "no error";
   } catch (const SceneError& error) {
-    EXPECT_STREQ(error.what(),
-                 "--set:2:1: solver.step_s: not used with solver.method = \"event_taylor\"; remove "
-                 "it");
+    EXPECT_STREQ(
+        error.what(),
+        "--vary:1:1: solver.step_s: not used with solver.method = \"event_taylor\"; remove "
+        "it");
   }
 }
 
@@ -130,8 +146,8 @@ TEST(VariantTest, WordsAreAsByText) {
     for (const std::string& text : texts) {
       for (const char* key : {"friction.law", "solver.method", "plant.mass_kg"}) {
         const std::string by_text =
-            outcome([&] { return read_text(text, "s", {fmt::format("{}=\"{}\"", key, word)}); });
-        const std::string by_word = outcome([&] {
+            outcome(0, [&] { return read_text(text, "s", {fmt::format("{}=\"{}\"", key, word)}); });
+        const std::string by_word = outcome(0, [&] {
           const Document document({"s", text}, {}, {key});
           return read(document, {VariedValue(word)});
         });

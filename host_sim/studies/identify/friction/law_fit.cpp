@@ -129,10 +129,10 @@ LawFit fit(const Readings& readings, const Candidate& law) {
   const double limit = readings.are_forces ? std::exp(best.logs(best.logs.size() - 1)) : 1.0;
   fit.residual_rms = std::sqrt(squares / n) / limit;
   const std::vector<Scatter> all = scatters(readings);
-  // Rounding of a smooth curve has a pattern too.
+  // Rounding of a smooth curve has a pattern too; at a single velocity all may be off by half a digit.
   constexpr double little_more = 1.2;
-  const bool is_exact =
-      fit.residual_rms <= std::max(law.accuracy, little_more * readings.rounding() / limit);
+  const double off = readings.last_digit * (fit.different == 1 ? 0.5 : 1.0 / std::sqrt(12.0));
+  const bool is_exact = fit.residual_rms <= std::max(law.accuracy, little_more * off / limit);
   fit.misfit = is_exact ? 0.0
                         : fit.residual_rms *
                               std::sqrt(misfit_part(all, probabilities_of(problem, fit, all)));

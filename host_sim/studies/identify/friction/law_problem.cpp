@@ -42,9 +42,8 @@ LawProblem::LawProblem(const Readings& readings, const Candidate& candidate)
   weights_ /= mean;
   stated_variance_ = readings.have_standard_errors ? 1.0 / (mean * mean) : 0.0;
   constexpr double exact_to = 1e-6;
-  least_variance_ = std::pow(std::max(readings.rounding() * std::sqrt(readings.rounded_alike()),
-                                      exact_to * measured_.cwiseAbs().maxCoeff()),
-                             2);
+  least_variance_ =
+      std::pow(std::max(readings.rounding, exact_to * measured_.cwiseAbs().maxCoeff()), 2);
   if (readings.are_forces) {
     const double largest = std::log(measured_.cwiseAbs().maxCoeff());
     ranges_.push_back({largest - 7.0, largest + 7.0});

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/scene/bound.hpp"
@@ -89,22 +91,28 @@ void warn(Readings& readings) {
   }
 }
 
-/// Frictions by sliding velocity, vibration velocity and frequency.
-std::map<std::array<double, 3>, std::vector<double>> by_velocity(const std::vector<Reading>& rows) {
-  std::map<std::array<double, 3>, std::vector<double>> groups;
+/// The readings of each sliding velocity, vibration velocity and frequency.
+std::map<std::array<double, 3>, std::vector<Reading>> by_velocity(
+    const std::vector<Reading>& rows) {
+  std::map<std::array<double, 3>, std::vector<Reading>> groups;
   for (const Reading& row : rows) {
-    groups[{row.sliding_m_per_s, row.vibration_m_per_s, row.frequency_Hz}].push_back(row.friction);
+    groups[{row.sliding_m_per_s, row.vibration_m_per_s, row.frequency_Hz}].push_back(row);
   }
   return groups;
 }
 
-/// The last one that the frictions are written with: a power of ten, not above the largest.
+/// The last one that the frictions are written with: a power of ten. That of the largest is one only where
+/// several have no other: of two values the zeros behind it may have been left out.
 double last_digit(const std::vector<Reading>& rows) {
   double largest = 0.0;
+  std::set<double> different;
   for (const Reading& row : rows) {
     largest = std::max(largest, std::abs(row.friction));
+    different.insert(row.friction);
   }
-  double digit = std::pow(10.0, std::floor(std::log10(largest)));
+  constexpr std::size_t several = 3;
+  double digit =
+      std::pow(10.0, std::floor(std::log10(largest)) - (different.size() < several ? 1.0 : 0.0));
   const auto is_written_with = [&](const Reading& row) {
     constexpr double of_binary = 1e-13;
     return std::abs(row.friction - std::round(row.friction / digit) * digit) <= of_binary * largest;
@@ -116,31 +124,57 @@ double last_digit(const std::vector<Reading>& rows) {
   return digit;
 }
 
+/// The mean of the readings of each velocity; and the scatter about it.
+struct Means {
+  std::vector<Reading> rows;
+  double scatter = 0.0;  ///< standard deviation
+};
+
+/// @param rows  some are of one velocity
+Means means_of(const std::vector<Reading>& rows) {
+  Means means;
+  double squares = 0.0;
+  for (const auto& [velocity, group] : by_velocity(rows)) {
+    const double sum =
+        std::accumulate(group.begin(), group.end(), 0.0,
+                        [](double all, const Reading& each) { return all + each.friction; });
+    Reading mean = group.front();
+    mean.friction = sum / static_cast<double>(group.size());
+    for (const Reading& each : group) {
+      squares += std::pow(each.friction - mean.friction, 2);
+    }
+    means.rows.push_back(mean);
+  }
+  means.scatter = std::sqrt(squares / static_cast<double>(rows.size() - means.rows.size()));
+  return means;
+}
+
+/// Repeats that scatter by less than half a digit are all off by the same rounding, which more of them do not
+/// make less. More scatter is rounded up as often as down.
+void join_rounded_alike(Readings& readings) {
+  constexpr double half = 0.5;
+  if (readings.have_standard_errors || readings.distinct() == readings.rows.size()) {
+    return;
+  }
+  Means means = means_of(readings.rows);
+  if (means.scatter >= half * readings.last_digit) {
+    return;
+  }
+  if (means.rows.size() == 1) {  // has no scatter to be told from
+    readings.rounding *= std::sqrt(static_cast<double>(readings.rows.size()));
+    return;
+  }
+  readings.rows = std::move(means.rows);
+  readings.warnings.push_back(fmt::format(
+      "Repeated readings scatter by less than half of their last digit, {:g}, so that all of one velocity "
+      "are off by the same rounding: their mean counts as one reading.",
+      readings.last_digit));
+}
+
 }  // namespace
 
 std::size_t Readings::distinct() const {
   return by_velocity(rows).size();
-}
-
-double Readings::rounding() const {
-  return last_digit(rows) / std::sqrt(12.0);
-}
-
-double Readings::rounded_alike() const {
-  constexpr double half = 0.5;
-  const auto groups = by_velocity(rows);
-  const auto all = static_cast<double>(rows.size());
-  const auto means = static_cast<double>(groups.size());
-  double squares = 0.0;
-  for (const auto& [velocity, values] : groups) {
-    const auto count = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-    for (const double each : values) {
-      squares += (each - mean) * (each - mean);
-    }
-  }
-  const double most = half * last_digit(rows);
-  return squares < most * most * (all - means) ? all / means : 1.0;
 }
 
 Readings read_readings(const scene_file::Source& source) {
@@ -189,12 +223,15 @@ Readings read_readings(const scene_file::Source& source) {
     readings.rows.push_back({sliding[i], vibration[i], readings.have_frequency ? frequency[i] : 0.0,
                              values[i], readings.have_standard_errors ? errors[i] : 0.0});
   }
+  readings.last_digit = last_digit(readings.rows);
+  readings.rounding = readings.last_digit / std::sqrt(12.0);
+  warn(readings);
+  join_rounded_alike(readings);
   std::stable_sort(readings.rows.begin(), readings.rows.end(),
                    [](const Reading& a, const Reading& b) {
                      return std::make_tuple(a.velocity_ratio(), a.sliding_m_per_s) <
                             std::make_tuple(b.velocity_ratio(), b.sliding_m_per_s);
                    });
-  warn(readings);
   readings.warnings.insert(readings.warnings.end(), table.warnings().begin(),
                            table.warnings().end());
   return readings;

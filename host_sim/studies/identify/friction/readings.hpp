@@ -26,16 +26,14 @@ struct Readings {
   bool are_forces = false;    ///< in N; otherwise ratios to the undriven friction
   bool have_frequency = false;
   bool have_standard_errors = false;
+  double last_digit = 0.0;  ///< that the frictions are written with
+  /// Least standard deviation of a reading: that of rounding to the last digit. Of n repeats of a single
+  /// velocity that are off by the same rounding √n times it.
+  double rounding = 0.0;
   std::vector<std::string> warnings;  ///< each a sentence
 
   /// Readings of different velocities or frequencies: repeated ones tell no further parameter.
   std::size_t distinct() const;
-  /// Standard deviation of rounding to the last digit that the values were written with. Their
-  /// scatter is no less.
-  double rounding() const;
-  /// How many readings, in the mean, are off by the same rounding: those of one velocity, where they scatter
-  /// by less than half a last digit; else 1. More scatter rounds up as often as down.
-  double rounded_alike() const;
 };
 
 /// More are refused: a mean of readings at one velocity tells a fit as much.
@@ -48,6 +46,8 @@ inline constexpr std::size_t most_readings = 500;
 /// - friction_ratio or friction_force_N;
 /// - frequency_Hz, and friction_ratio_standard_error or friction_force_standard_error_N, if they
 ///   are known.
+/// Without standard errors repeats that scatter by less than half their last digit are one reading, their
+/// mean, where there are several velocities; a warning says so.
 /// @throws scene_file::SceneError  at the place of what is wrong
 Readings read_readings(const scene_file::Source& source);
 

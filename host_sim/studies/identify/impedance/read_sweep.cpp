@@ -117,10 +117,11 @@ void sort_and_average(Sweep& sweep) {
         "The file has {} readings at {}: those of one frequency are averaged.{}", given,
         counted_frequencies(readings_S.size()),
         difference > large || of_traces
-            ? fmt::format(" They differ by up to {:.2g} % from their mean{}: of several "
-                          "traces leave one.",
-                          100.0 * difference,
-                          of_traces ? ", alike along the sweep, which no interval holds" : "")
+            ? fmt::format(
+                  " They differ by up to {:.2g} % from their mean{}: of several "
+                  "traces leave one.",
+                  100.0 * difference,
+                  of_traces ? ", in the same way along the sweep, which no interval includes" : "")
             : ""));
   }
 }

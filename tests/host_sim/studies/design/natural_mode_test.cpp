@@ -208,11 +208,17 @@ TEST(NaturalModeTest, TellsTheLinesThatASceneLacks) {
 }
 
 /// The trials are fed forward on a friction that they know, whatever the scene has.
-TEST(NaturalModeTest, TriesScenesThatCalibrateOrReadNoForce) {
+TEST(NaturalModeTest, TriesScenesThatLearnTheirFrictionOrReadNoForce) {
   scene::Scene calibrated = table_1();
   calibrated.controller->friction = scene::FrictionSource::calibrated;
   calibrated.controller->calibration_s = 0.5e-3;
   EXPECT_EQ(study_of(calibrated).recommended_loop.plants.settled, 8U);
+  scene::Scene tracked = table_1();
+  tracked.controller->friction = scene::FrictionSource::tracked;
+  const NaturalModeStudy study = study_of(tracked);
+  EXPECT_EQ(study.recommended_loop.friction, scene::FrictionSource::calibrated);
+  EXPECT_EQ(study.recommended_loop.refused, "");
+  EXPECT_EQ(study.drives[0].plants.settled, study_of(table_1()).drives[0].plants.settled);
   scene::Scene sightless = table_1();
   sightless.controller->vibration = scene::VibrationControl::damped;
   sightless.sensor.vibration = scene::VibrationSensor::velocity;
@@ -418,7 +424,7 @@ TEST(NaturalModeTest, SaysSoInWordsAndInJson) {
       "hardly excite the mode, whatever the stiffness. Of 8 plants"))
       << text;
   EXPECT_TRUE(says(
-      "Keys: For the recommended loop leave out controller.calibration_s, where it is given, and write these lines below "
+      "Keys: For the recommended loop leave out controller.calibration_s, if the scene has them, and write these lines below "
       "the header of each table, in place of lines with the same keys:\n[drive]\ninterpolation = \"linear\"\ncodes_per_period = 2\n"
       "[controller]\nfriction = \"calibrated\"\nController: "))
       << text;

@@ -75,6 +75,7 @@ TEST(MeasuredTable, ALineThatAWarningQuotesIsValidUtf8) {
   const std::string letters(39, 'x');
   EXPECT_EQ(quoted(letters + "\u00fcy"),
             "Line 3, \"" + letters + "\", is below the table and is not read.");
+  EXPECT_NE(quoted(std::string(47, '\xb5')).find("\\xb5"), std::string::npos);
 }
 
 TEST(MeasuredTable, PassesOverARowThatIsMadeAComment) {

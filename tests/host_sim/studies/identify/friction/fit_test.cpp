@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -303,30 +304,53 @@ TEST(FrictionFit, AnExactFitDoesNotFail) {
   }
 }
 
-/// Repeats that scatter by less than a digit are off alike, and their rounding is no pattern.
-TEST(FrictionFit, RepeatsThatAreRoundedAlikeTellNoMoreThanOne) {
+/// With `repeats` of each reading that scatter by less than the two digits that are written.
+Comparison compared_rounded(double truth, const std::vector<std::size_t>& velocities, int repeats) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> scatter(0.0, 5e-4);
-  constexpr int sets = 20;
-  int held = 0;
-  for (int set = 0; set < sets; ++set) {
-    const double truth = per_amplitude_per_m * std::pow(10.0, set / 19.0 - 0.5);
-    const Readings exact = readings_of("Dahl", {truth}, 0.0);
-    Readings readings = exact;
-    readings.rows.clear();
-    for (const std::size_t velocity : {2U, 7U, 12U}) {
-      for (int repeat = 0; repeat < 20; ++repeat) {
-        readings.rows.push_back(exact.rows[velocity]);
-        double& friction = readings.rows.back().friction;
-        friction = std::round(100.0 * (friction + scatter(random))) / 100.0;
-      }
+  std::string rows;
+  const Readings exact = readings_of("Dahl", {truth}, 0.0);
+  for (const std::size_t velocity : velocities) {
+    const Reading& row = exact.rows[velocity];
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      rows += fmt::format("{},{},25e3,{:.2f}\n", row.sliding_m_per_s, row.vibration_m_per_s,
+                          row.friction + (repeats > 1 ? scatter(random) : 0.0));
     }
-    const Comparison comparison = compare(readings, {"dahl"}, silent);
-    const Estimate& found = comparison.best().parameters.front();
-    held += found.low_95 <= truth && truth <= found.high_95 ? 1 : 0;
-    EXPECT_FALSE(comparison.best().fails()) << set;
   }
-  EXPECT_GE(held, sets - 2);
+  return compared(
+      rows, {"dahl"},
+      "sliding_velocity_m_per_s,vibration_velocity_m_per_s,frequency_Hz,friction_ratio\n");
+}
+
+/// They are off alike, and their rounding is no pattern.
+TEST(FrictionFit, RepeatsThatAreRoundedAlikeTellNoMoreThanOne) {
+  constexpr int sets = 20;
+  for (const auto& velocities : {std::vector<std::size_t>{7}, std::vector<std::size_t>{2, 7, 12}}) {
+    int held = 0;
+    for (int set = 0; set < sets; ++set) {
+      const double truth = per_amplitude_per_m * std::pow(10.0, set / 19.0 - 0.5);
+      const Comparison comparison = compared_rounded(truth, velocities, 20);
+      const Estimate& found = comparison.best().parameters.front();
+      held += found.low_95 <= truth && truth <= found.high_95 ? 1 : 0;
+      EXPECT_FALSE(comparison.best().fails()) << set;
+    }
+    EXPECT_GE(held, sets - 2);
+  }
+}
+
+/// Nor less: their interval is about that of one reading each, whose last digits are others.
+TEST(FrictionFit, RepeatsThatAreRoundedAlikeTellNoLessThanOne) {
+  std::vector<std::size_t> all(17);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const double truth = 0.4 * per_amplitude_per_m;
+  const Estimate once = compared_rounded(truth, all, 1).best().parameters.front();
+  const Comparison repeated = compared_rounded(truth, all, 5);
+  const Estimate often = repeated.best().parameters.front();
+  const double width = std::log(once.high_95 / once.low_95);
+  EXPECT_LT(std::log(often.high_95 / often.low_95), 2.0 * width);
+  EXPECT_GT(std::log(often.high_95 / often.low_95), 0.5 * width);
+  EXPECT_NEAR(std::log(often.value / once.value), 0.0, width);
+  EXPECT_NE(repeated.warnings.front().find("their mean counts as one reading"), std::string::npos);
 }
 
 /// The verdict has room: chi square is a column only where standard errors are stated.

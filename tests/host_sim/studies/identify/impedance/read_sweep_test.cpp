@@ -542,7 +542,8 @@ TEST(ReadSweep, NamesTracesThatDifferByMoreThanScatter) {
       }
     }
     const std::string warning = read_sweep({"m.csv", text}).warnings.at(0);
-    EXPECT_EQ(warning.find("They differ by up to 0.99 % from their mean, alike along the sweep") !=
+    EXPECT_EQ(warning.find(
+                  "They differ by up to 0.99 % from their mean, in the same way along the sweep") !=
                   std::string::npos,
               as_traces)
         << warning;
