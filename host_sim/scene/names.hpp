@@ -118,6 +118,7 @@ constexpr std::optional<Value> value_of(const std::array<Named<Value>, Count>& n
 template <class Value, std::size_t Count>
 std::vector<std::string_view> words_of(const std::array<Named<Value>, Count>& names) {
   std::vector<std::string_view> words;
+  words.reserve(Count);
   for (const Named<Value>& each : names) {
     words.push_back(each.name);
   }
