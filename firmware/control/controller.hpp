@@ -389,12 +389,11 @@ class Controller {
   [[no_unique_address]] typename PartsT::Samples samples_;
   FrictionLevel<Scalar> level_;
   [[no_unique_address]] typename PartsT::Target aim_;
-  Scalar target_ = whole_ratio<Scalar>;  ///< friction ratio on base 2
-  Scalar commanded_ =
-      whole_ratio<Scalar>;  ///< friction ratio, target and feedback together, on base 2
-  Scalar requested_{};      ///< amplitude before shaping, or vibration velocity
-  bool backwards_ = false;  ///< the sliding
-  bool followed_ = true;    ///< the drive could follow the last command
+  Scalar target_ = whole_ratio<Scalar>;     ///< friction ratio on base 2
+  Scalar commanded_ = whole_ratio<Scalar>;  ///< likewise, target and feedback together
+  Scalar requested_{};                      ///< amplitude before shaping, or vibration velocity
+  bool backwards_ = false;                  ///< the sliding
+  bool followed_ = true;                    ///< the drive could follow the last command
   State state_ = State::off;
   Fault fault_ = Fault::none;
 };

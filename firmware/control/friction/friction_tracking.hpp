@@ -72,6 +72,7 @@ class FrictionTracking {
   }
 
   /// Ends a dip, with `adapt` if that would have been next; where Fc is too uncertain another one begins.
+  /// Out of line: few periods need it.
   template <class Feedforward>
   [[gnu::noinline]] void interrupt(Feedforward& feedforward, const FrictionLevel<Scalar>& level) {
     const bool learnt = phase_ == Phase::adapt;

@@ -98,6 +98,7 @@ struct DriveCommand {
   Settling settling;
 };
 
+/// Drive zero, at a commanded ratio of 1.
 template <class Scalar>
 constexpr DriveCommand<Scalar> no_drive(State state, Limit limit, Fault fault) {
   return {Scalar{}, whole_ratio<Scalar>, state, limit, fault, Settling::pending};

@@ -5,10 +5,12 @@
 
 namespace sonoglide::control {
 
+/// ρ = 1: half of full scale in fixed point, exact in every arithmetic.
 template <class Scalar>
 constexpr Scalar whole_ratio = numeric::from_real<Scalar>(0.5);
 
-/// Of a ratio of 1 or more: it needs no drive.
+/// ρ >= 1, which needs no drive; of a NaN nothing is said.
+/// @param half_ratio  ρ on base 2
 template <class Scalar>
 constexpr bool is_whole(Scalar half_ratio) {
   return numeric::reaches(half_ratio, whole_ratio<Scalar>);
