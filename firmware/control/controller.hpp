@@ -150,9 +150,8 @@ class Controller {
     if (state_ == State::calibrating) {
       return calibrate(measurement);
     }
-    const bool backwards = numeric::is_negative(velocity);
-    if (backwards != backwards_) {
-      backwards_ = backwards;
+    if (numeric::is_negative(velocity) != backwards_) {
+      backwards_ = !backwards_;
       interrupt();  // readings that are still on their way belong to the other direction
     }
     const Request wanted =

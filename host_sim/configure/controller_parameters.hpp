@@ -194,6 +194,7 @@ typename control::FrictionTracking<Scalar>::Parameters parameters(
   all.mean.weight = scaled<numeric::Accumulator<Scalar>>(design.tracking_weight);
   all.constants.deviation = scaled<Scalar>(design.tracking_deviation / 4.0);
   all.constants.noise = scaled<Scalar>(design.tracking_noise / 4.0);
+  all.constants.scatter = scaled<Scalar>(design.tracking_scatter / 2.0);
   all.certain = variance(design.tracking_certain);
   all.dip_periods = design.tracking_dip_periods;
   all.edge = scaled_within<Scalar>(design.tracking_edge);

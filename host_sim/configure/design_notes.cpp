@@ -231,9 +231,13 @@ void add_tracking_note(const ControlDesign& design, std::vector<std::string>& no
   constexpr double audible = 0.05;
   const auto* mode = design.in_mode<FeedforwardDesign>();
   if (design.tracks && mode != nullptr && (mode->free_mode || mode->left > audible)) {
-    notes.push_back(
-        "While the drive dips to measure the friction force Fc, the natural mode rings and moves the mean "
-        "force. The interval of Fc does not include this error.");
+    notes.push_back(fmt::format(
+        "While the drive dips to measure the friction force Fc, the natural mode rings, which lowers the "
+        "mean force of a carrier period. {}",
+        design.tracking_shows_ringing
+            ? "The highest of them is then taken for Fc, whose interval reaches down to their mean."
+            : "So near a multiple of the frequency of the controller's steps it lowers all of them "
+              "alike: the controller takes too small a force for Fc, and no interval includes this error."));
   }
   if (design.tracks && design.tracking_unsettled > 0.0) {
     notes.push_back(fmt::format(

@@ -8,9 +8,11 @@
 #include <string>
 
 #include "firmware/numeric/float_elementary.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/plant_scales.hpp"
+#include "host_sim/configure/vibration/notch_design.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::configure {
@@ -76,6 +78,12 @@ double gain_deviation(const scene::Scene& scene, const NominalPlant& plant) {
   return std::min(most, root_of_squares(scene.transducer ? force_factor : drive, of_stiffness));
 }
 
+/// Whether a natural mode that rings turns at least once, as the steps see it, in so many of them.
+bool turns_within(double steps, const NominalPlant& plant, double step_period_s) {
+  const double turns = natural_mode(plant, step_period_s).rotation / numeric::two_pi;
+  return steps * std::abs(turns - std::round(turns)) >= 1.0;
+}
+
 /// Periods that a reading may wait for the contact: half of the shortest target's time, with what
 /// else a reading takes.
 /// @param others  what else it takes
@@ -104,6 +112,7 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
   constexpr double map_error = 0.003;      // of the inverse map, in friction ratio
   constexpr double least_noise = 0.0005;   // of a mean force, over the friction force
   constexpr double noise_deviations = 1.5;
+  constexpr double highest_deviations = 3.0;  // of a dip's periods over their mean
   constexpr double certain_deviations = 2.5;
   constexpr double surely_beyond = 3.0;  // deviations of the gain
   constexpr double least_edge = 0.25;
@@ -122,11 +131,17 @@ void design_tracking(const scene::Scene& scene, const NominalPlant& plant, Contr
   design.tracking_weight = mean_weight(readings);
   design.tracking_unsettled =
       waited < settling ? std::exp(-usual_presliding_travels * waited / settling) : 0.0;
-  const double noise_N = root_of_squares(scene.sensor.reading_noise_N() / numeric::sqrt(readings),
-                                         code_N(scene.sensor) / numeric::sqrt(12.0));
+  const double period_noise_N = scene.sensor.reading_noise_N();
+  const double rounding_N = code_N(scene.sensor) / numeric::sqrt(12.0);
+  const double noise_N = root_of_squares(period_noise_N / numeric::sqrt(readings), rounding_N);
   design.tracking_deviation = root_of_squares(root_of_squares(map_error, design.tracking_unsettled),
                                               noise_N / plant.friction_N);
   design.tracking_noise = std::max(least_noise, noise_deviations * noise_N / plant.friction_N);
+  // Less than two deviations of a reading is in the interval of Fc in any case.
+  design.tracking_scatter =
+      std::max(2.0 * design.tracking_deviation,
+               highest_deviations * root_of_squares(period_noise_N, rounding_N) / plant.friction_N);
+  design.tracking_shows_ringing = turns_within(readings, plant, design.scales.step_period_s());
   design.tracking_certain =
       std::max(scene.run.settling_band, certain_deviations * design.tracking_deviation);
   design.gain_deviation = gain_deviation(scene, plant);

@@ -271,8 +271,9 @@ class FrictionTracking {
       begin(now.requested);
       return;
     }
-    phase_ = constants_.compare({mean_.measured(), mapped(), dips_, moved}) ? Phase::prepare
-                                                                            : Phase::judge;
+    phase_ = constants_.compare({mean_.measured(), mean_.highest(), mapped(), dips_, moved})
+                 ? Phase::prepare
+                 : Phase::judge;
   }
 
   void judge(Scalar requested) {

@@ -37,6 +37,7 @@ class SteadyMean {
     request_ = request;
     left_ = periods();
     measured_ = {};
+    highest_ = {};
     commanded_ = {};
     limited_ = false;
   }
@@ -62,6 +63,7 @@ class SteadyMean {
       return false;
     }
     measured_ += numeric::accumulate(now.measured) * parameters_.weight;
+    highest_ = numeric::max(highest_, now.measured);
     commanded_ += numeric::accumulate(now.commanded) * parameters_.weight;
     if (!now.followed) {
       limited_ = true;
@@ -79,6 +81,8 @@ class SteadyMean {
   }
   Scalar request() const { return request_; }
   Scalar measured() const { return numeric::rounded<Scalar>(measured_); }
+  /// Of the periods that measured() is the mean of, and 0.
+  Scalar highest() const { return highest_; }
   Scalar commanded() const { return numeric::rounded<Scalar>(commanded_); }
   /// The drive could not follow the command.
   bool limited() const { return limited_; }
@@ -97,6 +101,7 @@ class SteadyMean {
   Parameters parameters_;
   Scalar request_{};
   numeric::Accumulator<Scalar> measured_{};
+  Scalar highest_{};
   numeric::Accumulator<Scalar> commanded_{};
   std::uint32_t left_ = 0;           ///< periods to the end of the reading, > 0 in each take()
   std::int32_t moving_periods_ = 0;  ///< since the last reading

@@ -17,7 +17,10 @@ namespace sonoglide::control {
 /// the first one (FrictionDrift): the error of the map, of at most two deviations, is the same in all of
 /// them. One that shows far more is weighed again, as a friction that has jumped.
 ///
-/// A reading in a dip of the drive, where the sliding never reverses, is of Fc alone.
+/// A reading in a dip of the drive, where the sliding never reverses, is of Fc alone. A natural mode that rings
+/// may reverse it, which lowers the mean force of a period, and nothing raises it above Fc. So where the highest
+/// of a dip exceeds their mean by more than noise does, it is the reading, and Fc is less certain by half of what
+/// it exceeds the mean by.
 ///
 /// A friction that drifts moves between the dip and the first reading after it as well, which takes that
 /// for an error of Kt and g. Four readings later the drift is known: where it shows, by more than four
@@ -37,12 +40,14 @@ class TrackedConstants {
   struct Parameters {
     Scalar deviation;  ///< of a mean force, a quarter of it over Fc
     Scalar noise;      ///< the part of it that is another in each reading, likewise
+    Scalar scatter;    ///< the most by which noise raises a period's force, half of it over Fc
     typename Estimate::Parameters start;
 
     template <class Self, class Visitor>
     static constexpr void fields(Self& self, Visitor&& visit) {
       visit("deviation", self.deviation);
       visit("noise", self.noise);
+      visit("scatter", self.scatter);
       visit("start", self.start);
     }
   };
@@ -50,6 +55,7 @@ class TrackedConstants {
   /// A reading that is complete.
   struct Complete {
     Scalar measured;
+    Scalar highest;  ///< of its periods
     Scalar mapped;
     bool dips;       ///< it is of a dip
     bool elsewhere;  ///< at another request than the one before
@@ -58,6 +64,7 @@ class TrackedConstants {
   explicit TrackedConstants(const Parameters& parameters)
       : deviation_(parameters.deviation),
         noise_part_(parameters.noise),
+        scatter_(parameters.scatter),
         estimate_(parameters.start) {}
 
   void restart() {
@@ -66,6 +73,7 @@ class TrackedConstants {
     drift_.begin(Scalar{});
     again_ = false;
     fresh_ = 0;
+    ringing_ = {};
   }
 
   /// Kt g over the nominal one, and 1/g.
@@ -94,7 +102,8 @@ class TrackedConstants {
       all.force = all.force + Drift::square_of_twice(numeric::twice(shown_));
     }
     all.force = all.force + drift_.variance() + Drift::square_of_twice(noise_) +
-                Drift::square_of_twice(drift_.base()) + Drift::square_of_twice(moved);
+                Drift::square_of_twice(drift_.base()) + Drift::square_of_twice(moved) +
+                numeric::rough_product(ringing_, ringing_);
     return all;
   }
 
@@ -103,7 +112,8 @@ class TrackedConstants {
     constexpr Scalar near_one = numeric::from_real<Scalar>(0.49);
     wanted_ = reading.dips || reading.elsewhere || base_ == Base::none;
     tests_map_ = (wanted_ || base_ == Base::first) && reading.mapped < near_one;
-    reading_.innovation = half_log(reading.measured, reading.mapped);
+    reading_.innovation =
+        half_log(reading.dips ? reached(reading) : reading.measured, reading.mapped);
     if (base_ == Base::first) {
       base_ = Base::known;
       if (again_) {
@@ -229,6 +239,14 @@ class TrackedConstants {
   static constexpr Scalar one_half() { return numeric::from_real<Scalar>(0.5); }
   static Floating unity() { return numeric::rescaled(numeric::floating(one_half()), 1); }
 
+  /// Force of a dip in which the sliding does not reverse.
+  Scalar reached(const Complete& dip) {
+    constexpr Scalar most = numeric::from_real<Scalar>(1.0 / 4.0);
+    const bool rings = scatter_ < dip.highest - dip.measured;
+    ringing_ = rings ? numeric::min(half_log(dip.highest, dip.measured), most) : Scalar{};
+    return rings ? dip.highest : dip.measured;
+  }
+
   /// A friction that drifts has done so between the dip and the first reading after it, which has taken
   /// that for an error of the map. The first time all is learnt again, with a drift that is known.
   void doubt() {
@@ -273,6 +291,7 @@ class TrackedConstants {
 
   Scalar deviation_;
   Scalar noise_part_;
+  Scalar scatter_;
   Estimate estimate_;
   Drift drift_;
   Floating contact_{};
@@ -282,6 +301,7 @@ class TrackedConstants {
   Scalar noise_{};        ///< half of that of a reading's logarithm
   Scalar force_error_{};  ///< half of that of ln Fc, by the reading that was judged
   Scalar shown_{};        ///< of a drift, by the readings since the last dip
+  Scalar ringing_{};      ///< half of ln highest/mean in the last dip, where it is not noise
   Base base_ = Base::none;
   bool wanted_ = false;
   bool tests_map_ =

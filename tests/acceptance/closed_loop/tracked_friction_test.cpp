@@ -219,6 +219,47 @@ TEST(TrackedFriction, IsNeverSureOfAForceThatIsWrong) {
   }
 }
 
+/// Without a notch, and with a damping that takes 1 to 3 ms: the mass rings through each dip, and later no more.
+TEST(TrackedFriction, HoldsAForceThatWasReadWhileTheMassRang) {
+  for (const std::string& arithmetic : arithmetics) {
+    for (const char* stiffness : {"60e6", "133e6", "250e6", "600e6"}) {
+      for (const double coefficient : {0.1, 0.13}) {
+        const nlohmann::json control =
+            summary_of(
+                "target_step",
+                tracked({"controller.arithmetic=" + arithmetic, "run.record=[]",
+                         "controller.shaping=none", "run.settling_band=0.02",
+                         "run.duration_s=24e-3",
+                         "controller.target_friction_ratio=[[0,0.4],[8e-3,0.6],[16e-3,0.5]]",
+                         std::string("plant.stiffness_N_per_m=") + stiffness,
+                         "plant.damping_N_s_per_m=20",
+                         "true_values.\"friction.coefficient\"=" + std::to_string(coefficient)}))
+                .at("control");
+        const nlohmann::json& force = control.at("friction").at("Fc_N");
+        EXPECT_TRUE(holds(force, 0.1962 * coefficient)) << arithmetic << stiffness << force;
+        EXPECT_LT(force.at("high_95"), 0.1962 * coefficient * 1.25) << arithmetic << stiffness;
+        EXPECT_NE(control.at("notes").dump().find("reaches down to their mean"), std::string::npos);
+      }
+    }
+  }
+}
+
+/// At 191.98 kHz and 180 kHz: the second at three times the carrier, where a reading looks the same throughout.
+TEST(TrackedFriction, IsSaidNotToShowAMassThatRingsAtAMultipleOfTheCarrier) {
+  for (const char* stiffness : {"2.9101e10", "2.5582e10"}) {
+    const std::string notes =
+        summary_of("target_step", tracked({"run.record=[]", "controller.shaping=none",
+                                           "drive.max_force_amplitude_N=6000",
+                                           std::string("plant.stiffness_N_per_m=") + stiffness}))
+            .at("control")
+            .at("notes")
+            .dump();
+    EXPECT_EQ(notes.find("no interval includes") != std::string::npos,
+              std::string(stiffness) == "2.5582e10")
+        << stiffness << notes;
+  }
+}
+
 TEST(TrackedFriction, DipsOnceForATargetBeyondTheDrive) {
   const nlohmann::json control =
       summary_of("target_step",

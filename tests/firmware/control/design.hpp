@@ -93,6 +93,7 @@ struct Design {
   std::uint8_t tracking_average_periods = 8;
   double tracking_deviation = 0.003;
   double tracking_noise = 0.0005;
+  double tracking_scatter = 0.006;
   double tracking_certain = 0.01;
   double gain_deviation = 0.02;
   double drive_limit = 1.0;
@@ -131,6 +132,7 @@ void fill(const Design& design, typename FrictionTracking<S>::Parameters& parame
        numeric::from_real<numeric::Accumulator<S>>(1.0 / design.tracking_average_periods)},
       {numeric::from_real<S>(design.tracking_deviation / 4.0),
        numeric::from_real<S>(design.tracking_noise / 4.0),
+       numeric::from_real<S>(design.tracking_scatter / 2.0),
        {variance(0.3), variance(0.5), variance(design.gain_deviation)}},
       variance(design.tracking_certain),
       static_cast<std::uint16_t>(4 *

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "closed_loop.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "friction/tracked_loop.hpp"
 #include "scalars.hpp"
 
@@ -200,6 +201,34 @@ TYPED_TEST(FrictionTrackingTest, IsAsCertainAsItIsRight) {
       EXPECT_LE(found.far[k], this->loops / 100) << range << " " << k;
     }
   }
+}
+
+/// A mass that rings lowers the force of some periods of each cycle. Noise is no ringing.
+TYPED_TEST(FrictionTrackingTest, TakesTheHighestForceOfADipInWhichTheMassRings) {
+  const Design design = trusting();
+  const Contact contact{0.3 / 1.1, 1.0108, 1.0};
+  const auto learnt = [&](const auto& change) {
+    typename TestFixture::Loop loop(design, contact);
+    loop.delay_sensor(1);
+    loop.set_target(0.5);
+    for (int i = 0; i < 120; ++i) {
+      const bool dips = loop.controller.relearning().pausing();
+      loop.step(0.1, dips ? contact.friction_force * change(i) : 0.0);
+    }
+    EXPECT_NEAR(numeric::to_real(loop.controller.friction_level().force()), contact.friction_force,
+                0.015 * contact.friction_force);
+    EXPECT_LT(std::abs(deviations_off(loop, design, contact)[0]), 1.96);
+    return stated_deviations(loop)[0];
+  };
+  for (const double depth : {0.1, 0.3}) {
+    for (const double turns : {0.13, 0.21, 0.34, 0.47}) {
+      const double stated = learnt(
+          [&](int i) { return depth * std::min(0.0, std::sin(numeric::two_pi * turns * i)); });
+      EXPECT_GT(stated, 0.1 * depth) << turns;
+      EXPECT_LT(stated, 0.4 * depth) << turns;
+    }
+  }
+  EXPECT_LT(learnt([](int i) { return i % 2 == 0 ? 0.004 : -0.004; }), 0.008);
 }
 
 /// Up to eight deviations off. Kt takes part of the error, so that not every contact shows it.
