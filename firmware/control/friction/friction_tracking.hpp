@@ -299,7 +299,7 @@ class FrictionTracking {
   }
 
   void conclude(const FrictionReading<Scalar>& now) {
-    if (constants_.has_base()) {
+    if (constants_.has_base() && !constants_.astray()) {
       count_ = 0;
       phase_ = Phase::resume;
     } else if (dips_ && far_) {
@@ -307,7 +307,7 @@ class FrictionTracking {
       mean_.go_on(now.requested);
       phase_ = Phase::watch;
     } else {
-      dip(!dips_ && uncertain());
+      dip(!dips_ && (uncertain() || constants_.astray()));
       begin(now.requested);
     }
   }

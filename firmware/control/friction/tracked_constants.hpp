@@ -74,6 +74,7 @@ class TrackedConstants {
     again_ = false;
     fresh_ = 0;
     ringing_ = {};
+    strayed_ = {};
   }
 
   /// Kt g over the nominal one, and 1/g.
@@ -144,7 +145,9 @@ class TrackedConstants {
 
   /// Fc changes.
   void follow() {
-    change_force(drift_.follow(force_error_));
+    const Scalar change = drift_.follow(force_error_);
+    change_force(change);
+    strayed_ = numeric::clamp_magnitude(strayed_ + change, numeric::from_real<Scalar>(1.0 / 2.0));
     if (fresh_ == 0) {
       return;
     }
@@ -198,6 +201,7 @@ class TrackedConstants {
       base_ = Base::none;
       fresh_ = 4;
       shown_ = Scalar{};
+      strayed_ = Scalar{};
       if (again_) {
         drift_.goes_on(Scalar{});
       } else {
@@ -217,6 +221,13 @@ class TrackedConstants {
     }
     change_force(force);
     return force;
+  }
+
+  /// Kt or g is none of what was known, and Fc has moved by more than 1/8 since the last dip: what has moved
+  /// may be the vibration.
+  bool astray() const {
+    constexpr Scalar most = numeric::from_real<Scalar>(1.0 / 16.0);
+    return estimate_.contradicted() && most < numeric::abs(strayed_);
   }
 
   /// The readings that follow are compared with what the last one has left.
@@ -301,6 +312,7 @@ class TrackedConstants {
   Scalar noise_{};        ///< half of that of a reading's logarithm
   Scalar force_error_{};  ///< half of that of ln Fc, by the reading that was judged
   Scalar shown_{};        ///< of a drift, by the readings since the last dip
+  Scalar strayed_{};      ///< by which ln Fc has followed since the last dip, half
   Scalar ringing_{};      ///< half of ln highest/mean in the last dip, where it is not noise
   Base base_ = Base::none;
   bool wanted_ = false;
