@@ -42,25 +42,25 @@ PartText part_text(configure::Type<control::NotchShaper<Scalar, MaxSpacing, TapC
                     : fmt::format(", {}, {}", parameters.spacing, TapCount));
 }
 
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::IntegralRegulator<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::IntegralRegulator<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay_periods));
+/// The periods of delay that a part is told.
+template <class Parameters>
+auto delay_of(const Parameters& parameters) -> decltype(parameters.delay_periods) {
+  return parameters.delay_periods;
+}
+template <class Parameters>
+auto delay_of(const Parameters& parameters) -> decltype(parameters.delay) {
+  return parameters.delay;
+}
+template <class Parameters>
+auto delay_of(const Parameters& parameters) -> decltype(parameters.vibration.delay) {
+  return parameters.vibration.delay;
 }
 
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::AdaptiveRegulator<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::AdaptiveRegulator<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay_periods));
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::ScalingRegulator<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::ScalingRegulator<Scalar, MaxDelay>>(
-      fmt::format(", {}", parameters.delay_periods));
+/// A regulator or a vibration: a part whose parameters have a delay.
+template <template <class, int> class Part, class Scalar, int MaxDelay, class Parameters>
+auto part_text(configure::Type<Part<Scalar, MaxDelay>> /*part*/, const Parameters& parameters)
+    -> decltype(delay_of(parameters), PartText()) {
+  return part_text<Part<Scalar, MaxDelay>>(fmt::format(", {}", delay_of(parameters)));
 }
 
 /// A regulator in another part, whose parameters hold its own.
@@ -82,30 +82,6 @@ template <class Regulator, class Parameters>
 PartText part_text(configure::Type<control::ContactForesight<Regulator>> /*part*/,
                    const Parameters& parameters) {
   return text_around<control::ContactForesight, Regulator>(parameters);
-}
-
-/// The periods of delay that a vibration is told.
-template <class Parameters>
-auto delay_of(const Parameters& parameters) -> decltype(parameters.delay) {
-  return parameters.delay;
-}
-template <class Parameters>
-auto delay_of(const Parameters& parameters) -> decltype(parameters.vibration.delay) {
-  return parameters.vibration.delay;
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::DampedVibration<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::DampedVibration<Scalar, MaxDelay>>(
-      fmt::format(", {}", delay_of(parameters)));
-}
-
-template <class Scalar, int MaxDelay, class Parameters>
-PartText part_text(configure::Type<control::BiasedDampedVibration<Scalar, MaxDelay>> /*part*/,
-                   const Parameters& parameters) {
-  return part_text<control::BiasedDampedVibration<Scalar, MaxDelay>>(
-      fmt::format(", {}", delay_of(parameters)));
 }
 
 /// A vibration that has a part of its own.

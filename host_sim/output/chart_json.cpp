@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace sonoglide::output {
@@ -29,19 +28,19 @@ int abscissa_digits(const std::vector<double>& x) {
                     kOrdinateDigits, kExactDigits);
 }
 
-void append_numbers(std::string& json, const std::vector<double>& values, int digits) {
-  json += '[';
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0) {
-      json += ',';
-    }
-    if (std::isfinite(values[i])) {
-      fmt::format_to(std::back_inserter(json), "{:.{}g}", values[i], digits);
-    } else {
-      json += "null";
-    }
+template <class Part, class JsonOf>
+std::string array_json(const std::vector<Part>& parts, const JsonOf& json_of) {
+  std::string json = "[";
+  for (const Part& each : parts) {
+    json += (json.size() == 1 ? "" : ",") + json_of(each);
   }
-  json += ']';
+  return json + ']';
+}
+
+std::string numbers(const std::vector<double>& values, int digits = kOrdinateDigits) {
+  return array_json(values, [digits](double value) {
+    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("null");
+  });
 }
 
 std::string json_string(const std::string& text) {
@@ -58,22 +57,15 @@ std::string json_string(const std::string& text) {
   return safe;
 }
 
-std::string numbers(const std::vector<double>& values, int digits = kOrdinateDigits) {
-  std::string json;
-  append_numbers(json, values, digits);
-  return json;
+std::string tick_json(const Tick& tick) {
+  return fmt::format(R"({{"at":{:.17g},"text":{}}})", tick.at, json_string(tick.name));
 }
 
 std::string axis_json(const Axis& axis) {
-  std::string json = fmt::format(
-      R"({{"label":{},"logarithmic":{},"ends":{},"verbatim":{},"hasZero":{},"whole":{},"ticks":[)",
+  return fmt::format(
+      R"({{"label":{},"logarithmic":{},"ends":{},"verbatim":{},"hasZero":{},"whole":{},"ticks":{}}})",
       json_string(axis.label), axis.logarithmic, numbers({axis.span.low, axis.span.high}),
-      axis.verbatim, axis.has_zero, axis.whole_numbers);
-  for (std::size_t i = 0; i < axis.ticks.size(); ++i) {
-    json += fmt::format(R"({}{{"at":{:.17g},"text":{}}})", i == 0 ? "" : ",", axis.ticks[i].at,
-                        json_string(axis.ticks[i].name));
-  }
-  return json + "]}";
+      axis.verbatim, axis.has_zero, axis.whole_numbers, array_json(axis.ticks, tick_json));
 }
 
 const char* name_of(Line line) {
@@ -91,44 +83,30 @@ std::string pen_json(const Pen& pen) {
 }
 
 std::string curve_json(const Curve& curve) {
-  std::string json = fmt::format(R"({{"label":{},"verbatim":{},"line":"{}","pen":{},"y":)",
+  std::string json = fmt::format(R"({{"label":{},"verbatim":{},"line":"{}","pen":{},"y":{})",
                                  json_string(curve.label), curve.verbatim, name_of(curve.line),
-                                 pen_json(curve.pen));
-  append_numbers(json, curve.y, kOrdinateDigits);
+                                 pen_json(curve.pen), numbers(curve.y));
   if (!curve.x.empty()) {
-    json += R"(,"x":)";
-    append_numbers(json, curve.x, abscissa_digits(curve.x));
+    json += R"(,"x":)" + numbers(curve.x, abscissa_digits(curve.x));
   }
   if (!curve.half_width.empty()) {
-    json += R"(,"halfWidth":)";
-    append_numbers(json, curve.half_width, kOrdinateDigits);
+    json += R"(,"halfWidth":)" + numbers(curve.half_width);
   }
   return json + '}';
 }
 
+std::string tile_json(const Tile& tile) {
+  return numbers({tile.x.low, tile.x.high, tile.y.low, tile.y.high, tile.value});
+}
+
 std::string tiles_json(const Tiles& tiles) {
-  std::string json = fmt::format(R"({{"label":{},"colour":{},"behind":{},"all":[)",
-                                 json_string(tiles.label), json_string(tiles.colour), tiles.behind);
-  for (std::size_t i = 0; i < tiles.all.size(); ++i) {
-    const Tile& tile = tiles.all[i];
-    json += (i == 0 ? "" : ",") +
-            numbers({tile.x.low, tile.x.high, tile.y.low, tile.y.high, tile.value});
-  }
-  return json + "]}";
+  return fmt::format(R"({{"label":{},"colour":{},"behind":{},"all":{}}})", json_string(tiles.label),
+                     json_string(tiles.colour), tiles.behind, array_json(tiles.all, tile_json));
 }
 
 std::string mark_json(const Mark& mark) {
   return fmt::format(R"({{"text":{},"x":{:.17g},"y":{:.17g}}})", json_string(mark.text), mark.x,
                      mark.y);
-}
-
-template <class Part>
-std::string array_json(const std::vector<Part>& parts, std::string (*json_of)(const Part&)) {
-  std::string json = "[";
-  for (const Part& each : parts) {
-    json += (json.size() == 1 ? "" : ",") + json_of(each);
-  }
-  return json + ']';
 }
 
 }  // namespace

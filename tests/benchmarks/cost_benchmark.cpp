@@ -8,11 +8,15 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "cost_by_hand.hpp"
+#include "cost_by_hand_rk4.hpp"
+#include "cost_by_hand_taylor.hpp"
 #include "cost_composed.hpp"
 #include "cost_composed_control.hpp"
+#include "firmware/numeric/fixed.hpp"
 
 namespace sonoglide::cost {
 namespace {
@@ -102,136 +106,89 @@ void count_bytes(benchmark::State& state) {
   state.counters["state_bytes"] = sizeof(plant::State<double>);
 }
 
-template <class Solver, class Account = plant::NoAccount>
-void pair(benchmark::State& state, Scene scene, Result (*by_hand)(const Scene&)) {
+template <class Law>
+constexpr by_hand::Law law_by_hand = std::is_same_v<Law, Dahl>      ? by_hand::Law::dahl
+                                     : std::is_same_v<Law, Coulomb> ? by_hand::Law::coulomb
+                                                                    : by_hand::Law::none;
+
+template <class Law, class Damping, class Drive>
+using ModelOf = plant::Model<Law, Damping, Drive, plant::ConstantSliding>;
+
+/// A rung of the ladder: what is composed as types is named to the loop by hand.
+template <template <class> class SolverOf, class Law, class Damping, class Drive,
+          class Account = plant::NoAccount, bool recorded = false>
+void rung(benchmark::State& state) {
+  using Model = ModelOf<Law, Damping, Drive>;
+  using Solver = SolverOf<Model>;
+  static constexpr by_hand::Named named = {law_by_hand<Law>,
+                                           std::is_same_v<Drive, CosineDrive>,
+                                           std::is_same_v<Damping, Damped>,
+                                           std::is_same_v<Account, plant::MeanFriction<double>>,
+                                           std::is_same_v<Account, plant::EnergyAccount<double>>,
+                                           recorded};
+  Scene scene = named.driven ? table_1 : undriven;
   compare(
-      state, [&](double* /*record*/) { return run<Solver, Account>(scene); },
-      [&](double* /*record*/) { return by_hand(scene); });
+      state,
+      [&](double* record) {
+        if constexpr (recorded) {
+          return run_recorded<Solver, Account>(scene, record);
+        } else {
+          return run<Solver, Account>(scene);
+        }
+      },
+      [&](double* record) {
+        if constexpr (std::is_same_v<Solver, Taylor<Model>>) {
+          return by_hand::taylor(scene, record, named);
+        } else {
+          return by_hand::rk4(scene, named);
+        }
+      });
   count_bytes<Solver>(state);
 }
 
-template <class Solver, class Account>
-void recorded_pair(benchmark::State& state, Scene scene, Result (*by_hand)(const Scene&, double*)) {
-  compare(
-      state, [&](double* record) { return run_recorded<Solver, Account>(scene, record); },
-      [&](double* record) { return by_hand(scene, record); });
-  count_bytes<Solver>(state);
-}
-
-template <class Solver, class Number>
-void controlled_pair(benchmark::State& state, Result (*by_hand)(const Scene&)) {
+template <class Number>
+void controlled_rung(benchmark::State& state) {
+  using Solver = Taylor<ModelOf<Dahl, Undamped, CosineDrive>>;
   compare(
       state, [](double* /*record*/) { return run_controlled<Solver, Number>(controlled); },
-      [&](double* /*record*/) { return by_hand(controlled); });
+      [](double* /*record*/) { return by_hand::controlled<Number>(controlled); });
   count_bytes<Solver>(state);
   state.counters["controller_bytes"] = sizeof(ControllerOf<Number>);
 }
 
-template <class Law, class Damping, class Drive>
-using TaylorOf = Taylor<plant::Model<Law, Damping, Drive, plant::ConstantSliding>>;
-template <class Law, class Damping, class Drive>
-using Rk4Of = plant::Rk4<plant::Model<Law, Damping, Drive, plant::ConstantSliding>>;
-
-using plant::EnergyAccount;
-using plant::MeanFriction;
-using plant::NoAccount;
-
-void register_rung(const char* name, void (*rung)(benchmark::State&)) {
-  benchmark::RegisterBenchmark(name, rung)->UseManualTime();
-}
-
-bool register_taylor() {
-  const auto add = register_rung;
-  add("taylor/free", [](benchmark::State& s) {
-    pair<TaylorOf<Free, Undamped, NoDrive>>(s, undriven, by_hand::free_oscillator);
-  });
-  add("taylor/damped", [](benchmark::State& s) {
-    pair<TaylorOf<Free, Damped, NoDrive>>(s, undriven, by_hand::damped_oscillator);
-  });
-  add("taylor/driven", [](benchmark::State& s) {
-    pair<TaylorOf<Free, Undamped, CosineDrive>>(s, table_1, by_hand::driven_oscillator);
-  });
-  add("taylor/driven_damped", [](benchmark::State& s) {
-    pair<TaylorOf<Free, Damped, CosineDrive>>(s, table_1, by_hand::driven_damped_oscillator);
-  });
-  add("taylor/coulomb", [](benchmark::State& s) {
-    pair<TaylorOf<Coulomb, Undamped, CosineDrive>>(s, table_1, by_hand::coulomb);
-  });
-  add("taylor/dahl_undriven", [](benchmark::State& s) {
-    pair<TaylorOf<Dahl, Undamped, NoDrive>>(s, undriven, by_hand::undriven_dahl);
-  });
-  add("taylor/dahl", [](benchmark::State& s) {
-    pair<TaylorOf<Dahl, Undamped, CosineDrive>>(s, table_1, by_hand::dahl);
-  });
-  add("taylor/dahl_damped", [](benchmark::State& s) {
-    pair<TaylorOf<Dahl, Damped, CosineDrive>>(s, table_1, by_hand::damped_dahl);
-  });
-  add("taylor/dahl+mean_friction", [](benchmark::State& s) {
-    pair<TaylorOf<Dahl, Undamped, CosineDrive>, MeanFriction<double>>(s, table_1,
-                                                                      by_hand::dahl_mean_friction);
-  });
-  add("taylor/dahl+energy", [](benchmark::State& s) {
-    pair<TaylorOf<Dahl, Undamped, CosineDrive>, EnergyAccount<double>>(s, table_1,
-                                                                       by_hand::dahl_energy);
-  });
-  add("taylor/dahl+record", [](benchmark::State& s) {
-    recorded_pair<TaylorOf<Dahl, Undamped, CosineDrive>, NoAccount>(s, table_1,
-                                                                    by_hand::dahl_recorded);
-  });
-  add("taylor/everything", [](benchmark::State& s) {
-    recorded_pair<TaylorOf<Dahl, Damped, CosineDrive>, EnergyAccount<double>>(s, table_1,
-                                                                              by_hand::everything);
-  });
+const bool registered = [] {
+  using plant::EnergyAccount;
+  using plant::MeanFriction;
+  using plant::NoAccount;
+  using plant::Rk4;
+  const auto add = [](const char* name, void (*rung)(benchmark::State&)) {
+    benchmark::RegisterBenchmark(name, rung)->UseManualTime();
+  };
+  add("taylor/free", rung<Taylor, Free, Undamped, NoDrive>);
+  add("taylor/damped", rung<Taylor, Free, Damped, NoDrive>);
+  add("taylor/driven", rung<Taylor, Free, Undamped, CosineDrive>);
+  add("taylor/driven_damped", rung<Taylor, Free, Damped, CosineDrive>);
+  add("taylor/coulomb", rung<Taylor, Coulomb, Undamped, CosineDrive>);
+  add("taylor/dahl_undriven", rung<Taylor, Dahl, Undamped, NoDrive>);
+  add("taylor/dahl", rung<Taylor, Dahl, Undamped, CosineDrive>);
+  add("taylor/dahl_damped", rung<Taylor, Dahl, Damped, CosineDrive>);
+  add("taylor/dahl+mean_friction", rung<Taylor, Dahl, Undamped, CosineDrive, MeanFriction<double>>);
+  add("taylor/dahl+energy", rung<Taylor, Dahl, Undamped, CosineDrive, EnergyAccount<double>>);
+  add("taylor/dahl+record", rung<Taylor, Dahl, Undamped, CosineDrive, NoAccount, true>);
+  add("taylor/everything", rung<Taylor, Dahl, Damped, CosineDrive, EnergyAccount<double>, true>);
+  add("taylor/controlled_float32", controlled_rung<float>);
+  add("taylor/controlled_q31", controlled_rung<numeric::Q31<numeric::Saturating>>);
+  add("rk4/free", rung<Rk4, Free, Undamped, NoDrive>);
+  add("rk4/damped", rung<Rk4, Free, Damped, NoDrive>);
+  add("rk4/driven", rung<Rk4, Free, Undamped, CosineDrive>);
+  add("rk4/driven_damped", rung<Rk4, Free, Damped, CosineDrive>);
+  add("rk4/coulomb", rung<Rk4, Coulomb, Undamped, CosineDrive>);
+  add("rk4/dahl_undriven", rung<Rk4, Dahl, Undamped, NoDrive>);
+  add("rk4/dahl", rung<Rk4, Dahl, Undamped, CosineDrive>);
+  add("rk4/dahl_damped", rung<Rk4, Dahl, Damped, CosineDrive>);
+  add("rk4/dahl+energy", rung<Rk4, Dahl, Undamped, CosineDrive, EnergyAccount<double>>);
   return true;
-}
-
-bool register_control() {
-  using Plant = TaylorOf<Dahl, Undamped, CosineDrive>;
-  register_rung("taylor/controlled_float32", [](benchmark::State& s) {
-    controlled_pair<Plant, float>(s, by_hand::controlled_float32);
-  });
-  register_rung("taylor/controlled_q31", [](benchmark::State& s) {
-    controlled_pair<Plant, numeric::Q31<numeric::Saturating>>(s, by_hand::controlled_q31);
-  });
-  return true;
-}
-
-bool register_rk4() {
-  const auto add = register_rung;
-  add("rk4/free", [](benchmark::State& s) {
-    pair<Rk4Of<Free, Undamped, NoDrive>>(s, undriven, by_hand::rk4_free_oscillator);
-  });
-  add("rk4/damped", [](benchmark::State& s) {
-    pair<Rk4Of<Free, Damped, NoDrive>>(s, undriven, by_hand::rk4_damped_oscillator);
-  });
-  add("rk4/driven", [](benchmark::State& s) {
-    pair<Rk4Of<Free, Undamped, CosineDrive>>(s, table_1, by_hand::rk4_driven_oscillator);
-  });
-  add("rk4/driven_damped", [](benchmark::State& s) {
-    pair<Rk4Of<Free, Damped, CosineDrive>>(s, table_1, by_hand::rk4_driven_damped_oscillator);
-  });
-  add("rk4/coulomb", [](benchmark::State& s) {
-    pair<Rk4Of<Coulomb, Undamped, CosineDrive>>(s, table_1, by_hand::rk4_coulomb);
-  });
-  add("rk4/dahl_undriven", [](benchmark::State& s) {
-    pair<Rk4Of<Dahl, Undamped, NoDrive>>(s, undriven, by_hand::rk4_undriven_dahl);
-  });
-  add("rk4/dahl", [](benchmark::State& s) {
-    pair<Rk4Of<Dahl, Undamped, CosineDrive>>(s, table_1, by_hand::rk4_dahl);
-  });
-  add("rk4/dahl_damped", [](benchmark::State& s) {
-    pair<Rk4Of<Dahl, Damped, CosineDrive>>(s, table_1, by_hand::rk4_damped_dahl);
-  });
-  add("rk4/dahl+energy", [](benchmark::State& s) {
-    pair<Rk4Of<Dahl, Undamped, CosineDrive>, EnergyAccount<double>>(s, table_1,
-                                                                    by_hand::rk4_dahl_energy);
-  });
-  return true;
-}
-
-const bool taylor_registered = register_taylor();
-const bool control_registered = register_control();
-const bool rk4_registered = register_rk4();
+}();
 
 }  // namespace
 }  // namespace sonoglide::cost

@@ -1,43 +1,32 @@
-/// Minimal loops, one for each rung of the cost ladder: written out, composed of nothing of ours.
+/// Minimal loops beside the composed ones of the cost ladder: written out, composed of nothing of
+/// ours. Each is compiled for what its rung names.
 ///
 /// The elementary functions, the search for a polynomial's first sign change and the nodes of a
 /// quadrature are the product's: functions of numbers, which know of no scene. Where a loop meets
-/// what its scene does not lead to, it stops, and the result has no steps.
+/// what its scene does not lead to, it stops, and the result has no steps. Every function is
+/// inlined, what is named and the numbers of terms being literals: what they switch off is not in
+/// the code.
 #pragma once
 
 #include "cost_scene.hpp"
 
 namespace sonoglide::cost::by_hand {
 
-Result free_oscillator(const Scene& scene);
-Result damped_oscillator(const Scene& scene);
-Result driven_oscillator(const Scene& scene);
-Result driven_damped_oscillator(const Scene& scene);
+enum class Law { none, coulomb, dahl };
 
-Result coulomb(const Scene& scene);
+/// What a rung names. The Taylor loop has Coulomb friction undamped, without accounts, and its
+/// records and accounts with Dahl friction only; that by Runge and Kutta has no records.
+struct Named {
+  Law law = Law::none;
+  bool driven = false;
+  bool damped = false;
+  bool mean_friction = false;
+  bool energy = false;
+  bool recorded = false;
+};
 
-Result undriven_dahl(const Scene& scene);
-Result dahl(const Scene& scene);
-Result damped_dahl(const Scene& scene);
-Result dahl_mean_friction(const Scene& scene);
-Result dahl_energy(const Scene& scene);
-Result dahl_recorded(const Scene& scene, double* record);
-Result everything(const Scene& scene, double* record);
-
-/// One carrier period of a driven Dahl contact with its mean friction; false where it fails.
-/// longest: the step that the tolerance allows.
-bool advance_dahl(Result& state, const Scene& scene, double longest);
-Result controlled_float32(const Scene& scene);
-Result controlled_q31(const Scene& scene);
-
-Result rk4_free_oscillator(const Scene& scene);
-Result rk4_damped_oscillator(const Scene& scene);
-Result rk4_driven_oscillator(const Scene& scene);
-Result rk4_driven_damped_oscillator(const Scene& scene);
-Result rk4_coulomb(const Scene& scene);
-Result rk4_undriven_dahl(const Scene& scene);
-Result rk4_dahl(const Scene& scene);
-Result rk4_damped_dahl(const Scene& scene);
-Result rk4_dahl_energy(const Scene& scene);
+/// A closed loop around the Taylor loop of a driven Dahl contact with its mean friction.
+template <class Number>
+Result controlled(Scene scene);
 
 }  // namespace sonoglide::cost::by_hand

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "cost_by_hand.hpp"
-#include "cost_by_hand_series.hpp"
+#include "cost_by_hand_taylor.hpp"
+#include "cost_scene.hpp"
 #include "firmware/friction/dahl_inverse_map.hpp"
 #include "firmware/numeric/fixed.hpp"
 #include "firmware/numeric/floating.hpp"
@@ -188,15 +188,23 @@ std::int32_t answer(Control<Number>& c, std::int32_t force_code, std::int32_t ve
   return numeric::to_code(numeric::clamp(shaped, Number{}, full));
 }
 
+/// One carrier period of the plant; false where it fails.
+[[gnu::noinline]] bool advance_plant(Result& state, const Scene& scene, double longest) {
+  static constexpr Named named = {Law::dahl, true, false, true, false, false};
+  return advance(state, scene, longest, nullptr, named);
+}
+
+}  // namespace
+
 template <class Number>
-Result run(Scene scene) {
+Result controlled(Scene scene) {
   Control<Number> control = control_of<Number>(control_numbers);
   const std::int32_t velocity_code = numeric::to_code(control_numbers.speed);
   const double longest = longest_step();
   Result state;
   double integral = 0.0;
   for (int i = 0; i < periods; ++i) {
-    if (!advance_dahl(state, scene, longest) || control.failed) {
+    if (!advance_plant(state, scene, longest) || control.failed) {
       return {};
     }
     const double mean = (state.friction_integral - integral) / two_pi;
@@ -207,14 +215,7 @@ Result run(Scene scene) {
   state.drive_amplitude = scene.drive_amplitude;
   return state;
 }
-
-}  // namespace
-
-Result controlled_float32(const Scene& scene) {
-  return run<float>(scene);
-}
-Result controlled_q31(const Scene& scene) {
-  return run<numeric::Q31<numeric::Saturating>>(scene);
-}
+template Result controlled<float>(Scene scene);
+template Result controlled<numeric::Q31<numeric::Saturating>>(Scene scene);
 
 }  // namespace sonoglide::cost::by_hand

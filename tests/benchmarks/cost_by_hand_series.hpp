@@ -1,8 +1,7 @@
 /// What the hand-written Taylor loops have in common: order 16, double, no composition.
 ///
 /// Arithmetic is in the order that plant::EventTaylor has it, so that results can be compared bit
-/// for bit. Every function is inlined, its flags and term numbers being literals: what they switch
-/// off is not in the code.
+/// for bit.
 #pragma once
 
 #include <array>
@@ -133,23 +132,6 @@ inline Phasor drive_at(double amplitude, double phase) {
     return numeric::min(1.0, remaining);
   }
   return numeric::min(reach(last, last_but_one, allowed), numeric::min(longest / unit, remaining));
-}
-
-/// The extent of a step whose friction is constant or none. What the vibration reaches in it is
-/// known once the step is: where that is far less than in a unit, a second pass.
-[[gnu::always_inline]] inline double free_extent(const Series& s, double longest,
-                                                 double remaining) {
-  const double rounding = epsilon * numeric::abs(s.velocity);
-  const double last = numeric::abs(s.rate * s.travel[order + 1]);
-  const double last_but_one = numeric::abs(s.rate * s.travel[order]);
-  const auto extent_at = [&](double speed) __attribute__((always_inline)) {
-    return step_extent(last, last_but_one, numeric::max(allowed_term * speed, rounding), s.unit,
-                       longest, remaining);
-  };
-  const double fastest = speed_within(s, 1.0);
-  const double extent = extent_at(fastest);
-  const double within = speed_within(s, extent);
-  return within < 0.5 * fastest ? extent_at(within) : extent;
 }
 
 }  // namespace sonoglide::cost

@@ -21,6 +21,7 @@
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/lockstep_image.hpp"
+#include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "monitor.hpp"
@@ -152,18 +153,6 @@ class ScriptedControl final : public loop::ControlPort {
   hal::Sample first_{};
 };
 
-/// An image's targets are compiled in.
-class ImagePort final : public loop::ControlPort {
- public:
-  explicit ImagePort(ImageProcess& image) : image_(image) {}
-  void set_target(double /*friction_ratio*/) override {}
-  hal::Drive exchange(const hal::Sample& sample) override { return image_.exchange(sample); }
-  std::vector<numeric::SignalRecord> signals() const override { return {}; }
-
- private:
-  ImageProcess& image_;
-};
-
 scene::Scene scene_of(const std::string& controller) {
   scene::Scene scene =
       experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").plant;
@@ -191,7 +180,7 @@ std::vector<hal::Drive> drives_on_host(const scene::Scene& scene, const Script& 
 std::vector<hal::Drive> drives_in_image(const scene::Scene& scene, const std::string& board,
                                         const std::string& controller, const Script& script) {
   ImageProcess image(emulate(board, controller), 60s);
-  ImagePort control(image);
+  ImageControl control(image, hal::lockstep::counts_per_clock);
   return drives(scene, control, script);
 }
 

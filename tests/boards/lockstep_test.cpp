@@ -7,31 +7,23 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
-#include "firmware/numeric/scalar.hpp"
 #include "hal/lockstep/frame.hpp"
-#include "hal/trace_hash.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/board_list.hpp"
 #include "host_sim/emulated/lockstep_image.hpp"
 #include "host_sim/emulated/run_image.hpp"
-#include "host_sim/loop/actuator.hpp"
 #include "host_sim/loop/control_port.hpp"
-#include "host_sim/loop/plant/period_drive.hpp"
-#include "host_sim/loop/plant/plant_port.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/loop/sensor.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "tested_boards.hpp"
-#include "tests/common/constants/pi.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
 #include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
 
@@ -44,8 +36,6 @@ constexpr int shut_down = static_cast<int>(hal::lockstep::ExitCode::shut_down);
 constexpr int link_broken = static_cast<int>(hal::lockstep::ExitCode::link_broken);
 constexpr int processor_fault = static_cast<int>(hal::lockstep::ExitCode::processor_fault);
 
-using tests::two_pi;
-
 std::string image(const std::string& board, const std::string& controller) {
   return SONOGLIDE_IMAGES "/" + board + "/bin/" + controller + ".elf";
 }
@@ -53,41 +43,6 @@ std::string image(const std::string& board, const std::string& controller) {
 std::vector<std::string> emulate(const std::string& board, const std::string& image) {
   return emulated::emulator_command(*emulated::find_board(board), image);
 }
-
-/// The plant of a scene and its sensor, fed period by period.
-class SensedPlant {
- public:
-  SensedPlant(const scene::Scene& scene, const configure::ControlDesign& design)
-      : scene_(scene),
-        period_s_(1.0 / scene.drive->frequency_Hz),
-        rate_(two_pi * scene.drive->frequency_Hz),
-        plant_(loop::make_plant_port(scene)),
-        sensor_(scene.sensor, design.scales) {}
-
-  /// Lives through a carrier period under a drive amplitude; the sample that ends it.
-  hal::Sample advance(const loop::Period& period, double amplitude_N) {
-    const double duration_s = period_s_;
-    const double gain = period.end_velocity_m_per_s - period.begin_velocity_m_per_s;
-    const loop::PeriodDrive drive(scene_, amplitude_N_, amplitude_N, 0.0);
-    amplitude_N_ = amplitude_N;
-    loop::Stretch stretch{
-        duration_s,       0.0, rate_, drive.part(0).amplitude_N, period.begin_velocity_m_per_s,
-        gain / duration_s};
-    stretch.drive_slope_N_per_rad = drive.part(0).slope_N_per_rad;
-    loop::EnergyBalance energy;
-    const auto outcome = plant_->advance(stretch, energy);
-    EXPECT_EQ(outcome.error, plant::Error::none);
-    return sensor_.sample(energy.friction_impulse_N_s / duration_s, period.end_velocity_m_per_s);
-  }
-
- private:
-  const scene::Scene& scene_;
-  double period_s_;
-  double rate_;
-  std::unique_ptr<loop::PlantPort> plant_;
-  loop::Sensor sensor_;
-  double amplitude_N_ = 0.0;  ///< of the period before
-};
 
 scene::Scene scene_of(const std::string& controller) {
   return experiment::read_file(SONOGLIDE_CONTROLLERS "/" + controller + "/scene.toml").plant;
@@ -119,33 +74,26 @@ class Image : public testing::TestWithParam<BoardImage> {
   ImageProcess board_;
 };
 
-/// Closes the loop of a scene between the host's plant and a board, and compares every command with
-/// the host's.
+/// Closes the loop of a scene with the controller on a board, and compares every period and command
+/// with those of the host's controller.
 void expect_the_hosts_commands(const scene::Scene& scene, ImageProcess& board) {
   const loop::LoggedRun host = loop::run_logged(scene);
-  const loop::ControlRecord& record = *host.result.control;
-  const configure::ControlDesign& design = record.design;
-  SensedPlant plant(scene, design);
-  hal::TraceHash hash;
-  loop::Actuator actuator(scene);
-  const std::size_t latency = static_cast<std::size_t>(scene.drive->delay_periods) + 1;
-  ASSERT_GT(host.periods.size(), latency) << "no command to compare";
-  for (std::size_t k = 0; k < host.periods.size(); ++k) {
-    const hal::Drive drive =
-        board.exchange(plant.advance(host.periods[k], actuator.in_force().amplitude_N));
-    hash.add(drive);
-    actuator.take(drive, host.periods[k].target);
-    if (k + latency < host.periods.size()) {
-      const loop::Period& answered = host.periods[k + latency];
-      const double amplitude_N =
-          numeric::from_code<double>(drive.amplitude) * design.scales.drive_amplitude_N;
-      ASSERT_EQ(amplitude_N, answered.drive_amplitude_N) << "carrier period " << k;
-      ASSERT_EQ(drive.state, static_cast<std::uint8_t>(answered.state)) << "carrier period " << k;
-      ASSERT_EQ(drive.limit, static_cast<std::uint8_t>(answered.limit)) << "carrier period " << k;
-    }
+  const loop::ControlRecord& expected = *host.result.control;
+  loop::PeriodLog log;
+  loop::Watch watch;
+  watch.periods = {&log};
+  ImageControl controller(board, hal::lockstep::counts_per_clock);
+  const loop::RunResult run = loop::run(scene, expected.design, controller, watch);
+  ASSERT_EQ(log.periods.size(), host.periods.size());
+  for (std::size_t k = 0; k < log.periods.size(); ++k) {
+    const loop::Period& period = log.periods[k];
+    ASSERT_EQ(period.drive_amplitude_N, host.periods[k].drive_amplitude_N)
+        << "carrier period " << k;
+    ASSERT_EQ(period.state, host.periods[k].state) << "carrier period " << k;
+    ASSERT_EQ(period.limit, host.periods[k].limit) << "carrier period " << k;
   }
-  EXPECT_EQ(record.commands, host.periods.size());
-  EXPECT_EQ(hash.value(), record.trace_hash);
+  EXPECT_EQ(run.control->commands, log.periods.size());
+  EXPECT_EQ(run.control->trace_hash, expected.trace_hash);
 }
 
 TEST_P(Image, DrivesThePlantWithTheHostsCommandsBitForBit) {

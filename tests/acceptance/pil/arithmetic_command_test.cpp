@@ -26,12 +26,9 @@ class ArithmeticCommandTest : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static std::unique_ptr<ScratchFolder> folder_;
-  static Outcome outcome_;
+  static inline std::unique_ptr<ScratchFolder> folder_;
+  static inline Outcome outcome_;
 };
-
-std::unique_ptr<ScratchFolder> ArithmeticCommandTest::folder_;
-Outcome ArithmeticCommandTest::outcome_;
 
 TEST_F(ArithmeticCommandTest, WritesItsFilesAndPrintsTheTable) {
   EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;

@@ -58,12 +58,9 @@ class SmallStability : public testing::Test {
     return all;
   }
 
-  static std::unique_ptr<ScratchFolder> folder_;
-  static Outcome outcome_;
+  static inline std::unique_ptr<ScratchFolder> folder_;
+  static inline Outcome outcome_;
 };
-
-std::unique_ptr<ScratchFolder> SmallStability::folder_;
-Outcome SmallStability::outcome_;
 
 TEST_F(SmallStability, WritesItsSevenFilesAndSaysWhere) {
   EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;

@@ -27,12 +27,9 @@ class WorkPrecisionTest : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static std::unique_ptr<ScratchFolder> folder_;
-  static Outcome outcome_;
+  static inline std::unique_ptr<ScratchFolder> folder_;
+  static inline Outcome outcome_;
 };
-
-std::unique_ptr<ScratchFolder> WorkPrecisionTest::folder_;
-Outcome WorkPrecisionTest::outcome_;
 
 TEST_F(WorkPrecisionTest, WritesItsThreeFiles) {
   EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;

@@ -40,6 +40,13 @@ class PoweredUnitOf {
     }
   }
 
+  /// A sample that does not arrive: a fault.
+  void miss_a_sample() {
+    board.fresh = false;
+    serve(1);
+    board.fresh = true;
+  }
+
   void put(const link::Frame& frame) {
     const link::WireFrame encoded = link::encode(frame);
     wire.to_unit.insert(wire.to_unit.end(), encoded.bytes.begin(),
@@ -86,6 +93,10 @@ class PoweredUnitOf {
     return ask<link::ParameterValue>(link::ReadParameter{static_cast<std::uint8_t>(parameter)})
         .value;
   }
+  /// The value that the answer tells.
+  std::uint32_t write(Parameter parameter, std::uint32_t value) {
+    return ask<link::ParameterWritten>(writing(parameter, value)).value;
+  }
   static link::WriteParameter writing(Parameter parameter, std::uint32_t value) {
     return {static_cast<std::uint8_t>(parameter), value};
   }
@@ -131,13 +142,18 @@ void expect_refusal(const link::Frame& frame, std::uint8_t request, Reason reaso
   EXPECT_EQ(refusal.highest, highest);
 }
 
-TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.start();
-  const link::Telemetry told = powered.telemetry();
+/// A unit whose flash was blank at power-on.
+class UnitOnALink : public testing::Test {
+ protected:
+  SimulatedFlash flash_;
+  PoweredUnit powered_{flash_};
+};
+
+TEST_F(UnitOnALink, TelemetryShowsTheRunningUnit) {
+  powered_.start();
+  const link::Telemetry told = powered_.telemetry();
   EXPECT_GT(told.period, 300U);
-  EXPECT_LT(told.period, powered.unit.supervisor().periods());
+  EXPECT_LT(told.period, powered_.unit.supervisor().periods());
   EXPECT_EQ(told.state, running);
   EXPECT_EQ(told.fault, 0);
   EXPECT_EQ(told.target, 400000U);
@@ -145,7 +161,7 @@ TEST(LinkServiceTest, TelemetryShowsTheRunningUnit) {
   EXPECT_EQ(told.lost_frames, 0);
   EXPECT_NEAR(numeric::from_code<double>(told.friction_force), 0.4 * TimedBoard::friction, 1e-3);
   EXPECT_NEAR(numeric::from_code<double>(told.sliding_velocity), TimedBoard::speed, 1e-9);
-  EXPECT_NEAR(told.amplitude, powered.board.latest_drive().amplitude, numeric::to_code(1e-3));
+  EXPECT_NEAR(told.amplitude, powered_.board.latest_drive().amplitude, numeric::to_code(1e-3));
   EXPECT_EQ(told.settling, static_cast<std::uint8_t>(control::Settling::settled));
   EXPECT_NEAR(told.mismatch, 1000, 1);
 }
@@ -160,10 +176,8 @@ TEST(LinkServiceTest, TheMismatchIsKnownOfASettledRatioAlone) {
   EXPECT_EQ(mismatch_thousandths(drive, 1), UINT16_MAX);
 }
 
-TEST(LinkServiceTest, SaysWhatItIs) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  const auto told = powered.ask<link::Identity>(link::ReadIdentity{});
+TEST_F(UnitOnALink, SaysWhatItIs) {
+  const auto told = powered_.ask<link::Identity>(link::ReadIdentity{});
   EXPECT_EQ(std::to_string(told.major_number) + '.' + std::to_string(told.minor_number) + '.' +
                 std::to_string(told.patch_number),
             SONOGLIDE_VERSION);
@@ -172,27 +186,23 @@ TEST(LinkServiceTest, SaysWhatItIs) {
   EXPECT_STREQ(told.board.data(), "test-stand");
 }
 
-TEST(LinkServiceTest, TellsTheFullScalesOfItsDesign) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, TellsTheFullScalesOfItsDesign) {
   for (std::uint8_t i = 0; i < link::quantity_count; ++i) {
-    const auto told = powered.ask<link::Scale>(link::ReadScale{i});
+    const auto told = powered_.ask<link::Scale>(link::ReadScale{i});
     EXPECT_EQ(told.quantity, i);
     EXPECT_EQ(link::full_scale_of(told).unit, full_scales[i].unit);
     EXPECT_EQ(link::full_scale_of(told).value, full_scales[i].value);
   }
-  expect_refusal(powered.answer_to(link::ReadScale{link::quantity_count}), link::ReadScale::kind,
+  expect_refusal(powered_.answer_to(link::ReadScale{link::quantity_count}), link::ReadScale::kind,
                  Reason::out_of_range, 0, link::quantity_count - 1);
 }
 
-TEST(LinkServiceTest, TellsTheExceptionThatWasKeptOverTheReset) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  expect_refusal(powered.answer_to(link::ReadException{}), link::ReadException::kind,
+TEST_F(UnitOnALink, TellsTheExceptionThatWasKeptOverTheReset) {
+  expect_refusal(powered_.answer_to(link::ReadException{}), link::ReadException::kind,
                  Reason::no_such_fault, 0, 0);
   const hal::KeptException kept{3, 0x1234, 0x5679, 0x61000003, 1U << 16, 1U << 30, 0xe000ed00};
   TestedProduct::exception = &kept;
-  const auto told = powered.ask<link::KeptException>(link::ReadException{});
+  const auto told = powered_.ask<link::KeptException>(link::ReadException{});
   TestedProduct::exception = nullptr;
   EXPECT_EQ(told.words, hal::words_of(kept));
 }
@@ -212,68 +222,56 @@ TEST(LinkServiceTest, HasNoNameWhereNoneWasGiven) {
   EXPECT_EQ(padded<4>("unit"), (std::array<char, 4>{'u', 'n', 'i', 't'}));
 }
 
-TEST(LinkServiceTest, ATargetSetInMidRunIsReached) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.start();
+TEST_F(UnitOnALink, ATargetSetInMidRunIsReached) {
+  powered_.start();
   for (const std::uint32_t target : {600000U, 123456U, 990000U}) {
-    EXPECT_EQ(powered.ask<link::TargetSet>(link::SetTarget{target}).target, target);
-    powered.serve(300);
-    EXPECT_NEAR(powered.board.ratio(), target / 1e6, 1e-3);
-    const link::Telemetry told = powered.telemetry();
+    EXPECT_EQ(powered_.ask<link::TargetSet>(link::SetTarget{target}).target, target);
+    powered_.serve(300);
+    EXPECT_NEAR(powered_.board.ratio(), target / 1e6, 1e-3);
+    const link::Telemetry told = powered_.telemetry();
     EXPECT_EQ(told.target, target);
     EXPECT_NEAR(told.mismatch, 1000, 10) << target;
   }
-  EXPECT_EQ(powered.watchdog.feeds, static_cast<int>(powered.unit.supervisor().periods()));
+  EXPECT_EQ(powered_.watchdog.feeds, static_cast<int>(powered_.unit.supervisor().periods()));
 }
 
-TEST(LinkServiceTest, ATargetOutOfRangeIsRefusedAndChangesNothing) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  expect_refusal(powered.answer_to(link::SetTarget{1000001}), link::SetTarget::kind,
+TEST_F(UnitOnALink, ATargetOutOfRangeIsRefusedAndChangesNothing) {
+  expect_refusal(powered_.answer_to(link::SetTarget{1000001}), link::SetTarget::kind,
                  Reason::out_of_range, 0, 1000000);
-  EXPECT_EQ(powered.telemetry().target, 400000U);
+  EXPECT_EQ(powered_.telemetry().target, 400000U);
 }
 
-TEST(LinkServiceTest, StopTakesTheDriveAwayUntilARestart) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.start();
-  powered.ask<link::Stopped>(link::Stop{});
-  EXPECT_EQ(powered.board.latest_drive().amplitude, 0);
-  EXPECT_EQ(powered.telemetry().state, off);
-  powered.ask<link::Restarted>(link::Restart{});
-  EXPECT_EQ(powered.telemetry().state, running);
-  EXPECT_NEAR(powered.board.ratio(), 0.4, 1e-3);
+TEST_F(UnitOnALink, StopTakesTheDriveAwayUntilARestart) {
+  powered_.start();
+  powered_.ask<link::Stopped>(link::Stop{});
+  EXPECT_EQ(powered_.board.latest_drive().amplitude, 0);
+  EXPECT_EQ(powered_.telemetry().state, off);
+  powered_.ask<link::Restarted>(link::Restart{});
+  EXPECT_EQ(powered_.telemetry().state, running);
+  EXPECT_NEAR(powered_.board.ratio(), 0.4, 1e-3);
 }
 
-TEST(LinkServiceTest, AFaultIsReportedLoggedAndLeftByARestart) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  expect_refusal(powered.answer_to(link::ReadFault{0}), link::ReadFault::kind,
+TEST_F(UnitOnALink, AFaultIsReportedLoggedAndLeftByARestart) {
+  expect_refusal(powered_.answer_to(link::ReadFault{0}), link::ReadFault::kind,
                  Reason::no_such_fault, 0, 0);
-  powered.start();
-  powered.board.fresh = false;
-  powered.serve(1);
-  const std::uint32_t period = powered.unit.supervisor().periods();
-  powered.board.fresh = true;
-  const link::Telemetry told = powered.telemetry();
+  powered_.start();
+  powered_.miss_a_sample();
+  const std::uint32_t period = powered_.unit.supervisor().periods();
+  const link::Telemetry told = powered_.telemetry();
   EXPECT_EQ(told.state, faulted);
   EXPECT_EQ(told.fault, static_cast<std::uint8_t>(control::Fault::measurement_missing));
   EXPECT_EQ(told.amplitude, 0);
-  const auto logged = powered.ask<link::LoggedFault>(link::ReadFault{0});
+  const auto logged = powered_.ask<link::LoggedFault>(link::ReadFault{0});
   EXPECT_EQ(logged.fault, told.fault);
   EXPECT_EQ(logged.period, period);
   EXPECT_EQ(logged.count, 1U);
-  powered.ask<link::Restarted>(link::Restart{});
-  EXPECT_EQ(powered.telemetry().state, running);
-  EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
+  powered_.ask<link::Restarted>(link::Restart{});
+  EXPECT_EQ(powered_.telemetry().state, running);
+  EXPECT_EQ(powered_.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
 
-  powered.board.fresh = false;
-  powered.serve(1);
-  powered.board.fresh = true;
-  const auto latest = powered.ask<link::LoggedFault>(link::ReadFault{0});
-  const auto before = powered.ask<link::LoggedFault>(link::ReadFault{1});
+  powered_.miss_a_sample();
+  const auto latest = powered_.ask<link::LoggedFault>(link::ReadFault{0});
+  const auto before = powered_.ask<link::LoggedFault>(link::ReadFault{1});
   EXPECT_EQ(latest.count, 2U);
   EXPECT_EQ(latest.age, 0);
   EXPECT_GT(latest.period, period);
@@ -281,11 +279,9 @@ TEST(LinkServiceTest, AFaultIsReportedLoggedAndLeftByARestart) {
   EXPECT_EQ(before.period, period);
 }
 
-TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, EveryParameterIsReadWithItsRange) {
   for (std::uint8_t i = 0; i < parameter_count; ++i) {
-    const auto told = powered.ask<link::ParameterValue>(link::ReadParameter{i});
+    const auto told = powered_.ask<link::ParameterValue>(link::ReadParameter{i});
     const ParameterRange& range = field_design.range(i);
     EXPECT_EQ(told.parameter, i);
     EXPECT_EQ(told.decimal_places, parameter_labels[i].decimal_places);
@@ -296,9 +292,9 @@ TEST(LinkServiceTest, EveryParameterIsReadWithItsRange) {
   }
   for (const int unknown : {11, 12, 255}) {
     const auto parameter = static_cast<std::uint8_t>(unknown);
-    expect_refusal(powered.answer_to(link::ReadParameter{parameter}), link::ReadParameter::kind,
+    expect_refusal(powered_.answer_to(link::ReadParameter{parameter}), link::ReadParameter::kind,
                    Reason::unknown_parameter, 0, 10);
-    expect_refusal(powered.answer_to(link::WriteParameter{parameter, 0}),
+    expect_refusal(powered_.answer_to(link::WriteParameter{parameter, 0}),
                    link::WriteParameter::kind, Reason::unknown_parameter, 0, 10);
   }
 }
@@ -314,7 +310,7 @@ TEST(LinkServiceTest, ParametersNeedAStopAndAreKeptOverAReset) {
     EXPECT_EQ(flash.operations(), 0);
     powered.ask<link::Stopped>(link::Stop{});
     EXPECT_EQ(powered.ask<link::ParameterWritten>(write).value, 120000U);
-    powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 500000));
+    powered.write(Parameter::target, 500000);
     EXPECT_EQ(powered.read(Parameter::drive_limit), 120000U);
   }
   PoweredUnit powered(flash);
@@ -329,39 +325,33 @@ TEST(LinkServiceTest, ParametersNeedAStopAndAreKeptOverAReset) {
   EXPECT_NEAR(numeric::from_code<double>(powered.board.latest_drive().amplitude), 0.12, 1e-7);
 }
 
-TEST(LinkServiceTest, TheAnswerToAWriteBearsItsParameterAndValue) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, TheAnswerToAWriteBearsItsParameterAndValue) {
   for (std::uint8_t i = 0; i < parameter_count; ++i) {
     const std::uint32_t value = field_design.range(i).highest;
-    const auto written = powered.ask<link::ParameterWritten>(link::WriteParameter{i, value});
+    const auto written = powered_.ask<link::ParameterWritten>(link::WriteParameter{i, value});
     EXPECT_EQ(written.parameter, i);
     EXPECT_EQ(written.value, value) << int{i};
   }
 }
 
-TEST(LinkServiceTest, AWrittenParameterIsInForceFromTheNextRestart) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.ask<link::TargetSet>(link::SetTarget{500000});
-  powered.ask<link::Stopped>(link::Stop{});
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::drive_limit, 120000));
-  EXPECT_EQ(powered.board.latest_drive().amplitude, 0);
-  powered.ask<link::Restarted>(link::Restart{});
-  EXPECT_NEAR(numeric::from_code<double>(powered.board.latest_drive().amplitude), 0.12, 1e-7);
-  EXPECT_EQ(powered.telemetry().target, 500000U);
+TEST_F(UnitOnALink, AWrittenParameterIsInForceFromTheNextRestart) {
+  powered_.ask<link::TargetSet>(link::SetTarget{500000});
+  powered_.ask<link::Stopped>(link::Stop{});
+  powered_.write(Parameter::drive_limit, 120000);
+  EXPECT_EQ(powered_.board.latest_drive().amplitude, 0);
+  powered_.ask<link::Restarted>(link::Restart{});
+  EXPECT_NEAR(numeric::from_code<double>(powered_.board.latest_drive().amplitude), 0.12, 1e-7);
+  EXPECT_EQ(powered_.telemetry().target, 500000U);
 }
 
-TEST(LinkServiceTest, AValueOutOfRangeIsRefusedByItsRangeAndChangesNothing) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, AValueOutOfRangeIsRefusedByItsRangeAndChangesNothing) {
   for (std::uint8_t i = 0; i < parameter_count; ++i) {
     const ParameterRange& range = field_design.range(i);
-    expect_refusal(powered.answer_to(link::WriteParameter{i, range.highest + 1}),
+    expect_refusal(powered_.answer_to(link::WriteParameter{i, range.highest + 1}),
                    link::WriteParameter::kind, Reason::out_of_range, range.lowest, range.highest);
-    EXPECT_EQ(powered.ask<link::ParameterValue>(link::ReadParameter{i}).value, range.preset);
+    EXPECT_EQ(powered_.ask<link::ParameterValue>(link::ReadParameter{i}).value, range.preset);
   }
-  EXPECT_EQ(flash.operations(), 0);
+  EXPECT_EQ(flash_.operations(), 0);
 }
 
 TEST(LinkServiceTest, FlashThatDoesNotKeepAValueIsReported) {
@@ -395,9 +385,7 @@ TEST(LinkServiceTest, AFlashThatStaysBusyIsReportedAndDoesNotMuteTheLink) {
     EXPECT_EQ(powered.telemetry().state, running);
     powered.ask<link::Stopped>(link::Stop{});
     flash.hang(false);
-    EXPECT_EQ(
-        powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::gain_scale, 222)).value,
-        222U);
+    EXPECT_EQ(powered.write(Parameter::gain_scale, 222), 222U);
     EXPECT_EQ(PoweredUnit(flash).read(Parameter::gain_scale), 222U);
   }
 }
@@ -408,7 +396,7 @@ TEST(LinkServiceTest, APowerCutWhileWritingLeavesTheOldValueOrTheNew) {
       SimulatedFlash flash;
       {
         PoweredUnit powered(flash);
-        powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::gain_scale, 111));
+        powered.write(Parameter::gain_scale, 111);
         powered.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 222), 200));
         flash.cut_after(operation, torn);
         for (int i = 0; i < 400 && flash.powered(); ++i) {
@@ -422,113 +410,101 @@ TEST(LinkServiceTest, APowerCutWhileWritingLeavesTheOldValueOrTheNew) {
   }
 }
 
-TEST(LinkServiceTest, ARepeatedRequestIsAnsweredAgainAndNotDoneAgain) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, ARepeatedRequestIsAnsweredAgainAndNotDoneAgain) {
   const auto write = link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 7);
-  powered.put(write);
-  powered.put(write);
-  powered.put(write);
-  const std::vector<link::Frame> frames = powered.answers();
+  powered_.put(write);
+  powered_.put(write);
+  powered_.put(write);
+  const std::vector<link::Frame> frames = powered_.answers();
   ASSERT_EQ(frames.size(), 3U);
   for (const link::Frame& frame : frames) {
     link::ParameterWritten written{};
     EXPECT_TRUE(link::read(frame, written));
     EXPECT_EQ(frame.sequence, 7);
   }
-  EXPECT_EQ(flash.operations(), operations_of_a_save);
+  EXPECT_EQ(flash_.operations(), operations_of_a_save);
 }
 
 // A host whose answer was lost goes on from the number that it is told.
-TEST(LinkServiceTest, ARepeatedRestartIsRefusedAndNotAnsweredFromMemory) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.put(link::frame_of(link::Restart{}, 7));
-  powered.put(link::frame_of(link::Restart{}, 7));
-  const std::vector<link::Frame> frames = powered.answers();
+TEST_F(UnitOnALink, ARepeatedRestartIsRefusedAndNotAnsweredFromMemory) {
+  powered_.put(link::frame_of(link::Restart{}, 7));
+  powered_.put(link::frame_of(link::Restart{}, 7));
+  const std::vector<link::Frame> frames = powered_.answers();
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0].kind, link::Restarted::kind);
   expect_refusal(frames[1], link::Restart::kind, Reason::out_of_turn, 7, 7);
 }
 
 // Each counts from 0, whatever the one before it did.
-TEST(LinkServiceTest, ThreeHostsThatBeginAtZeroGetFreshAnswers) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, ThreeHostsThatBeginAtZeroGetFreshAnswers) {
   std::uint32_t period = 0;
   for (std::uint16_t host = 0; host < 3; ++host) {
     for (const bool greets : {true, false}) {
       std::uint16_t sequence = 0;
       if (greets) {
-        powered.put(link::frame_of(link::Hello{host}, sequence++));
+        powered_.put(link::frame_of(link::Hello{host}, sequence++));
         link::Greeted greeted{};
-        ASSERT_TRUE(link::read(powered.answers().at(0), greeted));
+        ASSERT_TRUE(link::read(powered_.answers().at(0), greeted));
         EXPECT_EQ(greeted.session, host);
         EXPECT_EQ(greeted.design, field_design.design());
-        powered.put(link::frame_of(link::Restart{}, sequence++));
-        EXPECT_EQ(powered.answers().at(0).kind, link::Restarted::kind);
+        powered_.put(link::frame_of(link::Restart{}, sequence++));
+        EXPECT_EQ(powered_.answers().at(0).kind, link::Restarted::kind);
       } else {
         sequence = 2;  // a host that only reads, with the number of the one before it
       }
-      powered.put(link::frame_of(link::ReadTelemetry{}, sequence));
+      powered_.put(link::frame_of(link::ReadTelemetry{}, sequence));
       link::Telemetry told{};
-      ASSERT_TRUE(link::read(powered.answers().at(0), told));
+      ASSERT_TRUE(link::read(powered_.answers().at(0), told));
       EXPECT_GT(told.period, period);
       period = told.period;
     }
   }
 }
 
-TEST(LinkServiceTest, ALateOrReusedNumberIsRefusedWithTheLast) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.put(link::frame_of(link::SetTarget{600000}, 1000));
-  powered.put(link::frame_of(link::SetTarget{700000}, 999));
-  powered.put(link::frame_of(link::SetTarget{800000}, 1000));
-  powered.put(link::frame_of(link::SetTarget{600000}, 1000));
-  const std::vector<link::Frame> frames = powered.answers();
+TEST_F(UnitOnALink, ALateOrReusedNumberIsRefusedWithTheLast) {
+  powered_.put(link::frame_of(link::SetTarget{600000}, 1000));
+  powered_.put(link::frame_of(link::SetTarget{700000}, 999));
+  powered_.put(link::frame_of(link::SetTarget{800000}, 1000));
+  powered_.put(link::frame_of(link::SetTarget{600000}, 1000));
+  const std::vector<link::Frame> frames = powered_.answers();
   ASSERT_EQ(frames.size(), 4U);
   expect_refusal(frames[1], link::SetTarget::kind, Reason::out_of_turn, 1000, 1000);
   EXPECT_EQ(frames[1].sequence, 999);
   expect_refusal(frames[2], link::SetTarget::kind, Reason::out_of_turn, 1000, 1000);
   link::TargetSet set{};
   EXPECT_TRUE(link::read(frames[3], set));
-  EXPECT_EQ(powered.unit.target(), 600000U);
+  EXPECT_EQ(powered_.unit.target(), 600000U);
 }
 
-TEST(LinkServiceTest, UnknownAndMisshapenRequestsAreRefused) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, UnknownAndMisshapenRequestsAreRefused) {
   for (const int kind : {0, 0x3F, 0x7F, 0x81, 0xFF}) {
     link::Frame frame;
     frame.kind = static_cast<std::uint8_t>(kind);
-    frame.sequence = ++powered.sequence;
-    powered.put(frame);
-    expect_refusal(powered.answers().at(0), frame.kind, Reason::unknown_request, 0, 0);
+    frame.sequence = ++powered_.sequence;
+    powered_.put(frame);
+    expect_refusal(powered_.answers().at(0), frame.kind, Reason::unknown_request, 0, 0);
   }
   for (std::uint8_t kind = 1; kind <= link::Stream::kind; ++kind) {
     link::Frame frame;
     frame.kind = kind;
-    frame.sequence = ++powered.sequence;
+    frame.sequence = ++powered_.sequence;
     frame.payload_bytes = 6;
-    powered.put(frame);
-    expect_refusal(powered.answers().at(0), kind, Reason::wrong_length, 0, 0);
+    powered_.put(frame);
+    expect_refusal(powered_.answers().at(0), kind, Reason::wrong_length, 0, 0);
   }
 }
 
-TEST(LinkServiceTest, DamagedFramesAreCountedAndCostNoStep) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.start();
-  powered.put(link::frame_of(link::Stop{}, 1));
-  powered.wire.to_unit[4] ^= 0x40U;
-  EXPECT_TRUE(powered.answers().empty());
-  EXPECT_EQ(powered.telemetry().lost_frames, 1);
-  EXPECT_EQ(powered.telemetry().state, running);
-  EXPECT_EQ(powered.watchdog.feeds, static_cast<int>(powered.unit.supervisor().periods()));
+TEST_F(UnitOnALink, DamagedFramesAreCountedAndCostNoStep) {
+  powered_.start();
+  powered_.put(link::frame_of(link::Stop{}, 1));
+  powered_.wire.to_unit[4] ^= 0x40U;
+  EXPECT_TRUE(powered_.answers().empty());
+  EXPECT_EQ(powered_.telemetry().lost_frames, 1);
+  EXPECT_EQ(powered_.telemetry().state, running);
+  EXPECT_EQ(powered_.watchdog.feeds, static_cast<int>(powered_.unit.supervisor().periods()));
 }
 
-class StreamTest : public testing::Test {
+class StreamTest : public UnitOnALink {
  protected:
   /// The samples among what the unit sends in some periods, its answers left out.
   std::vector<link::Streamed> samples() {
@@ -545,9 +521,6 @@ class StreamTest : public testing::Test {
     powered_.put(link::frame_of(stream, ++powered_.sequence));
     return samples();
   }
-
-  SimulatedFlash flash_;
-  PoweredUnit powered_{flash_};
 };
 
 TEST_F(StreamTest, ShowsTheChosenChannelsOfEachSoManySteps) {
@@ -630,20 +603,18 @@ TEST_F(StreamTest, RefusesWhatThereIsNot) {
 }
 
 // The bound on what a carrier period spends on the link.
-TEST(LinkServiceTest, APeriodMovesOneByteEachWayOrOneStepOfASave) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 7));
+TEST_F(UnitOnALink, APeriodMovesOneByteEachWayOrOneStepOfASave) {
+  powered_.put(link::frame_of(PoweredUnit::writing(Parameter::gain_scale, 111), 7));
   for (int i = 0; i < 400; ++i) {
-    const std::size_t to = powered.wire.to_unit.size();
-    const std::size_t from = powered.wire.from_unit.size();
-    const int operations = flash.operations();
-    powered.serve(1);
-    const std::size_t sent = powered.wire.from_unit.size() - from;
-    ASSERT_LE(to - powered.wire.to_unit.size(), 1U);
-    ASSERT_LE(sent + static_cast<std::size_t>(flash.operations() - operations), 1U);
+    const std::size_t to = powered_.wire.to_unit.size();
+    const std::size_t from = powered_.wire.from_unit.size();
+    const int operations = flash_.operations();
+    powered_.serve(1);
+    const std::size_t sent = powered_.wire.from_unit.size() - from;
+    ASSERT_LE(to - powered_.wire.to_unit.size(), 1U);
+    ASSERT_LE(sent + static_cast<std::size_t>(flash_.operations() - operations), 1U);
   }
-  EXPECT_EQ(flash.operations(), operations_of_a_save);
+  EXPECT_EQ(flash_.operations(), operations_of_a_save);
 }
 
 /// A request of each kind, told apart by its answer.
@@ -753,46 +724,38 @@ TEST(LinkServiceTest, AFaultCancelsTheRestartThatWasSentBeforeIt) {
 }
 
 // Two faults in a row, and what was sent before the second.
-TEST(LinkServiceTest, EveryFaultCancelsWhatWasSentBeforeIt) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
+TEST_F(UnitOnALink, EveryFaultCancelsWhatWasSentBeforeIt) {
   for (std::uint32_t fault = 1; fault <= 2; ++fault) {
-    powered.ask<link::Restarted>(link::Restart{});
-    powered.put(link::frame_of(link::SetTarget{600000}, ++powered.sequence));
-    powered.put(link::frame_of(link::Restart{}, ++powered.sequence));
-    powered.serve(5);
-    powered.board.fresh = false;
-    powered.serve(1);
-    powered.board.fresh = true;
-    const std::vector<link::Frame> frames = powered.answers();
+    powered_.ask<link::Restarted>(link::Restart{});
+    powered_.put(link::frame_of(link::SetTarget{600000}, ++powered_.sequence));
+    powered_.put(link::frame_of(link::Restart{}, ++powered_.sequence));
+    powered_.serve(5);
+    powered_.miss_a_sample();
+    const std::vector<link::Frame> frames = powered_.answers();
     ASSERT_EQ(frames.size(), 2U);
     expect_refusal(frames[0], link::SetTarget::kind, Reason::overtaken_by_fault, 0, 0);
     EXPECT_EQ(frames[1].kind, link::Restarted::kind);  // its first byte came later
-    powered.ask<link::Stopped>(link::Stop{});
-    EXPECT_EQ(powered.unit.supervisor().faults().count(), fault);
-    EXPECT_EQ(powered.telemetry().target, 400000U);
+    powered_.ask<link::Stopped>(link::Stop{});
+    EXPECT_EQ(powered_.unit.supervisor().faults().count(), fault);
+    EXPECT_EQ(powered_.telemetry().target, 400000U);
   }
 }
 
 // A fault between the first byte of a question and its last one cancels orders alone.
-TEST(LinkServiceTest, WhatIsReadIsAnsweredWhateverFaultCame) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.ask<link::Restarted>(link::Restart{});
-  powered.put(link::frame_of(link::ReadTelemetry{}, ++powered.sequence));
-  auto& wire = powered.wire.to_unit;
+TEST_F(UnitOnALink, WhatIsReadIsAnsweredWhateverFaultCame) {
+  powered_.ask<link::Restarted>(link::Restart{});
+  powered_.put(link::frame_of(link::ReadTelemetry{}, ++powered_.sequence));
+  auto& wire = powered_.wire.to_unit;
   constexpr int first_bytes = 4;
   const std::vector<std::uint8_t> rest(wire.begin() + first_bytes, wire.end());
   wire.erase(wire.begin() + first_bytes, wire.end());
-  powered.serve(1);
-  powered.board.fresh = false;
-  powered.serve(1);
-  powered.board.fresh = true;
+  powered_.serve(1);
+  powered_.miss_a_sample();
   wire.insert(wire.end(), rest.begin(), rest.end());
-  const std::vector<link::Frame> frames = powered.answers();
+  const std::vector<link::Frame> frames = powered_.answers();
   ASSERT_EQ(frames.size(), 1U);
   EXPECT_EQ(frames[0].kind, link::Telemetry::kind);
-  EXPECT_EQ(powered.unit.supervisor().faults().count(), 1U);
+  EXPECT_EQ(powered_.unit.supervisor().faults().count(), 1U);
 }
 
 RC_GTEST_PROP(LinkServiceTest, AStopActsBehindAnyBytes, ()) {
@@ -824,17 +787,15 @@ TEST(LinkServiceTest, AStopActsWhateverItsNumber) {
   }
 }
 
-TEST(LinkServiceTest, WhatComesWhileThreeRequestsWaitIsCountedAsLost) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.wire.blocked = true;
+TEST_F(UnitOnALink, WhatComesWhileThreeRequestsWaitIsCountedAsLost) {
+  powered_.wire.blocked = true;
   for (std::uint16_t sequence = 1; sequence <= 7; ++sequence) {
-    powered.put(link::frame_of(link::ReadTelemetry{}, sequence));
+    powered_.put(link::frame_of(link::ReadTelemetry{}, sequence));
   }
-  powered.serve(400);
-  powered.wire.blocked = false;
-  EXPECT_EQ(powered.answers().size(), 4U);
-  EXPECT_EQ(powered.telemetry().lost_frames, 3);
+  powered_.serve(400);
+  powered_.wire.blocked = false;
+  EXPECT_EQ(powered_.answers().size(), 4U);
+  EXPECT_EQ(powered_.telemetry().lost_frames, 3);
 }
 
 TEST(LinkServiceTest, AHealthyUnitDrivesFromPowerOnOnlyWhereThatIsStored) {
@@ -842,8 +803,7 @@ TEST(LinkServiceTest, AHealthyUnitDrivesFromPowerOnOnlyWhereThatIsStored) {
   for (const bool starts : {false, true, false}) {
     PoweredUnit powered(flash);
     powered.ask<link::Stopped>(link::Stop{});
-    powered.ask<link::ParameterWritten>(
-        PoweredUnit::writing(Parameter::start_on_power, starts ? 1 : 0));
+    powered.write(Parameter::start_on_power, starts ? 1 : 0);
     PoweredUnit after(flash);
     after.serve(300);
     EXPECT_EQ(after.telemetry().state, starts ? running : off);
@@ -853,8 +813,7 @@ TEST(LinkServiceTest, AHealthyUnitDrivesFromPowerOnOnlyWhereThatIsStored) {
 
 TEST(LinkServiceTest, AfterAResetByTheWatchdogStartOnPowerDoesNotCount) {
   SimulatedFlash flash;
-  PoweredUnit(flash).ask<link::ParameterWritten>(
-      PoweredUnit::writing(Parameter::start_on_power, 1));
+  PoweredUnit(flash).write(Parameter::start_on_power, 1);
   TestedUnit unit(field_design, flash);
   TimedBoard board;
   CountingWatchdog watchdog;
@@ -870,10 +829,10 @@ TEST(LinkServiceTest, AfterAResetByTheWatchdogStartOnPowerDoesNotCount) {
 SimulatedFlash limited_flash() {
   SimulatedFlash flash;
   PoweredUnit powered(flash);
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::start_on_power, 1));
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::drive_limit, 120000));
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::gain_scale, 500000));
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 700000));
+  powered.write(Parameter::start_on_power, 1);
+  powered.write(Parameter::drive_limit, 120000);
+  powered.write(Parameter::gain_scale, 500000);
+  powered.write(Parameter::target, 700000);
   return flash;
 }
 
@@ -928,7 +887,7 @@ TEST(LinkServiceTest, UnderAnotherDesignLimitsHoldAndTheUnitWaitsToBeTold) {
 TEST(LinkServiceTest, AWriteConfirmsTheOtherParameters) {
   SimulatedFlash flash = limited_flash();
   PoweredUnit powered(flash, other_design);
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 500000));
+  powered.write(Parameter::target, 500000);
   EXPECT_EQ(powered.telemetry().state, faulted);
   expect_drives(powered);
 }
@@ -1001,7 +960,7 @@ TEST(LinkServiceTest, AfterASelfTestThatFailedNothingStartsTheDrive) {
   expect_refused();
   powered.ask<link::Confirmed>(link::Confirm{});
   expect_refused();
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::target, 500000));
+  powered.write(Parameter::target, 500000);
   expect_refused();
   powered.ask<link::Stopped>(link::Stop{});
   EXPECT_EQ(powered.telemetry().state, off);
@@ -1027,47 +986,45 @@ TEST(LinkServiceTest, AfterASelfTestThatItHasPassedAUnitDoesAsOneWithout) {
 /// Carrier periods of the preset, 0.1 s.
 constexpr int timeout_periods = 6000;
 
-TEST(LinkServiceTest, AHostThatFallsSilentLosesTheDriveByARamp) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.ask<link::Restarted>(link::Restart{});
+TEST_F(UnitOnALink, AHostThatFallsSilentLosesTheDriveByARamp) {
+  powered_.ask<link::Restarted>(link::Restart{});
   // Whatever is whole counts as life, an older frame too.
   for (int i = 0; i < 3; ++i) {
-    powered.serve(timeout_periods - 600);
-    powered.put(link::frame_of(link::ReadTelemetry{}, 1));
-    powered.answers();
-    ASSERT_EQ(powered.board.latest_drive().state, running);
+    powered_.serve(timeout_periods - 600);
+    powered_.put(link::frame_of(link::ReadTelemetry{}, 1));
+    powered_.answers();
+    ASSERT_EQ(powered_.board.latest_drive().state, running);
   }
-  powered.serve(timeout_periods - 600);
-  ASSERT_EQ(powered.board.latest_drive().state, running);
-  const std::int32_t amplitude = powered.board.latest_drive().amplitude;
-  while (powered.board.latest_drive().state == running) {
-    powered.serve(1);
+  powered_.serve(timeout_periods - 600);
+  ASSERT_EQ(powered_.board.latest_drive().state, running);
+  const std::int32_t amplitude = powered_.board.latest_drive().amplitude;
+  while (powered_.board.latest_drive().state == running) {
+    powered_.serve(1);
   }
   int falling = 0;
-  for (std::int32_t last = amplitude; powered.board.latest_drive().amplitude > 0; ++falling) {
-    ASSERT_LE(last - powered.board.latest_drive().amplitude,
+  for (std::int32_t last = amplitude; powered_.board.latest_drive().amplitude > 0; ++falling) {
+    ASSERT_LE(last - powered_.board.latest_drive().amplitude,
               amplitude / HostRamp::periods + HostRamp::periods);
-    last = powered.board.latest_drive().amplitude;
-    powered.serve(1);
+    last = powered_.board.latest_drive().amplitude;
+    powered_.serve(1);
   }
   EXPECT_EQ(falling, HostRamp::periods - 1);
-  const link::Telemetry told = powered.telemetry();
+  const link::Telemetry told = powered_.telemetry();
   EXPECT_EQ(told.state, faulted);
   EXPECT_EQ(told.fault, static_cast<std::uint8_t>(UnitFault::host_silent));
   EXPECT_EQ(told.amplitude, 0);
-  powered.serve(100);
-  EXPECT_EQ(powered.telemetry().state, faulted);  // a host that is heard again is not enough
-  powered.ask<link::Restarted>(link::Restart{});
-  EXPECT_EQ(powered.telemetry().state, running);
-  EXPECT_EQ(powered.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
+  powered_.serve(100);
+  EXPECT_EQ(powered_.telemetry().state, faulted);  // a host that is heard again is not enough
+  powered_.ask<link::Restarted>(link::Restart{});
+  EXPECT_EQ(powered_.telemetry().state, running);
+  EXPECT_EQ(powered_.ask<link::LoggedFault>(link::ReadFault{0}).count, 1U);
 }
 
 TEST(LinkServiceTest, SilenceIsCountedToThePeriod) {
   for (const std::uint32_t timeout_ms : {1U, 7U, 100U}) {
     SimulatedFlash flash;
     PoweredUnit powered(flash);
-    powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::host_timeout, timeout_ms));
+    powered.write(Parameter::host_timeout, timeout_ms);
     powered.start(static_cast<int>(60 * timeout_ms));
     EXPECT_EQ(powered.unit.supervisor().faults().count(), 0U) << timeout_ms;
     powered.serve(1);
@@ -1075,38 +1032,32 @@ TEST(LinkServiceTest, SilenceIsCountedToThePeriod) {
   }
 }
 
-TEST(LinkServiceTest, DamagedFramesAreNoLife) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.start(0);
+TEST_F(UnitOnALink, DamagedFramesAreNoLife) {
+  powered_.start(0);
   const link::WireFrame frame = link::encode(link::frame_of(link::ReadTelemetry{}, 1));
   for (int i = 0; i < timeout_periods / 10; ++i) {
     for (std::size_t k = 0; k < frame.size; ++k) {
-      powered.wire.to_unit.push_back(k == 4 ? frame.bytes[k] ^ 0x10U : frame.bytes[k]);
+      powered_.wire.to_unit.push_back(k == 4 ? frame.bytes[k] ^ 0x10U : frame.bytes[k]);
     }
-    powered.serve(20);
+    powered_.serve(20);
   }
-  EXPECT_EQ(powered.board.latest_drive().fault, static_cast<std::uint8_t>(UnitFault::host_silent));
+  EXPECT_EQ(powered_.board.latest_drive().fault, static_cast<std::uint8_t>(UnitFault::host_silent));
 }
 
-TEST(LinkServiceTest, WithoutATimeoutOrADriveSilenceIsNoFault) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.serve(2 * timeout_periods);
-  EXPECT_EQ(powered.unit.supervisor().faults().count(), 0U);
-  powered.ask<link::ParameterWritten>(PoweredUnit::writing(Parameter::host_timeout, 0));
-  powered.ask<link::Restarted>(link::Restart{});
-  powered.serve(4 * timeout_periods);
-  EXPECT_EQ(powered.telemetry().state, running);
+TEST_F(UnitOnALink, WithoutATimeoutOrADriveSilenceIsNoFault) {
+  powered_.serve(2 * timeout_periods);
+  EXPECT_EQ(powered_.unit.supervisor().faults().count(), 0U);
+  powered_.write(Parameter::host_timeout, 0);
+  powered_.ask<link::Restarted>(link::Restart{});
+  powered_.serve(4 * timeout_periods);
+  EXPECT_EQ(powered_.telemetry().state, running);
 }
 
-TEST(LinkServiceTest, NothingIsWrittenOnTheRamp) {
-  SimulatedFlash flash;
-  PoweredUnit powered(flash);
-  powered.start(timeout_periods + 2);
-  ASSERT_GT(powered.board.latest_drive().amplitude, 0);
-  EXPECT_EQ(powered.unit.write(0, 1), Answer::drive_not_stopped);
-  EXPECT_EQ(powered.unit.confirm(), Answer::drive_not_stopped);
+TEST_F(UnitOnALink, NothingIsWrittenOnTheRamp) {
+  powered_.start(timeout_periods + 2);
+  ASSERT_GT(powered_.board.latest_drive().amplitude, 0);
+  EXPECT_EQ(powered_.unit.write(0, 1), Answer::drive_not_stopped);
+  EXPECT_EQ(powered_.unit.confirm(), Answer::drive_not_stopped);
 }
 
 // ---- Between the order of a request and the carrier period that takes it ----

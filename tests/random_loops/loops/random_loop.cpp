@@ -112,34 +112,43 @@ void draw_sliding_and_drive(Dice& dice, RandomLoop& loop) {
       full_vibration_m(loop) * numeric::sqrt(reactive * reactive + resistive * resistive);
 }
 
+/// A line of a scene. Six digits are enough to be what was drawn, and short enough to be read.
+std::string line(std::string_view key, double value) {
+  return fmt::format("{} = {:.6g}\n", key, value);
+}
+std::string line_unless_zero(std::string_view key, double value) {
+  return value == 0.0 ? "" : line(key, value);
+}
+
 void draw_lugre(Dice& dice, RandomLoop& loop) {
   const double friction_per_velocity = friction_N(loop) / full_vibration_m_per_s(loop);
-  LawNumbers& own = loop.law_numbers;
-  own.static_coefficient = loop.coefficient * dice.between(1.0, 1.5);
-  own.stribeck_velocity_m_per_s =
-      std::abs(loop.sliding_velocity_m_per_s) * dice.over_decades(0.3, 1.0);
-  own.bristle_damping_N_s_per_m = friction_per_velocity * dice.between(0.0, 0.1);
-  own.viscous_friction_N_s_per_m = friction_per_velocity * dice.between(0.0, 0.2);
+  loop.law_keys = line("static_coefficient", loop.coefficient * dice.between(1.0, 1.5));
+  loop.law_keys += line("stribeck_velocity_m_per_s",
+                        std::abs(loop.sliding_velocity_m_per_s) * dice.over_decades(0.3, 1.0));
+  loop.law_keys +=
+      line("bristle_damping_N_s_per_m", friction_per_velocity * dice.between(0.0, 0.1));
+  loop.law_keys +=
+      line("viscous_friction_N_s_per_m", friction_per_velocity * dice.between(0.0, 0.2));
 }
 
 /// The curve falls by up to a quarter from rest to the sliding speed, and never below zero.
 void draw_stribeck(Dice& dice, RandomLoop& loop) {
-  LawNumbers& own = loop.law_numbers;
-  own.fall_s_per_m =
+  const double fall_s_per_m =
       dice.between(0.0, 0.25) * loop.coefficient / std::abs(loop.sliding_velocity_m_per_s);
-  const double least = 4.0 * own.fall_s_per_m * own.fall_s_per_m * own.fall_s_per_m /
+  const double least = 4.0 * fall_s_per_m * fall_s_per_m * fall_s_per_m /
                        (27.0 * loop.coefficient * loop.coefficient);
-  own.rise_s3_per_m3 = least * dice.between(1.01, 2.0);
+  loop.law_keys = line("fall_s_per_m", fall_s_per_m);
+  loop.law_keys += line("rise_s3_per_m3", least * dice.between(1.01, 2.0));
 }
 
 /// Full drive takes 0.5 to 1.2 of the normal force away; the sliding is 0.05 to 0.5 of the speed
 /// from which nothing is lost.
 void draw_normal_coulomb(Dice& dice, RandomLoop& loop) {
-  LawNumbers& own = loop.law_numbers;
-  own.normal_contact_stiffness_N_per_m =
+  const double normal_N_per_m =
       dice.between(0.5, 1.2) * loop.normal_force_N / full_vibration_m(loop);
-  loop.contact_stiffness_N_per_m = dice.over_decades(0.05, 1.0) * loop.coefficient *
-                                   own.normal_contact_stiffness_N_per_m * loop.full_velocity_ratio;
+  loop.law_keys = line("normal_contact_stiffness_N_per_m", normal_N_per_m);
+  loop.contact_stiffness_N_per_m =
+      dice.over_decades(0.05, 1.0) * loop.coefficient * normal_N_per_m * loop.full_velocity_ratio;
   loop.full_dahl_number =
       loop.contact_stiffness_N_per_m * full_vibration_m(loop) / friction_N(loop);
 }
@@ -168,7 +177,7 @@ void draw_friction(Dice& dice, RandomLoop& loop) {
   if (loop.law == "lugre") {
     draw_lugre(dice, loop);
   } else if (loop.law == "iwan") {
-    loop.law_numbers.elements = dice.whole(1, 8);
+    loop.law_keys = line("elements", dice.whole(1, 8));
   }
 }
 
@@ -235,47 +244,6 @@ void draw_model_error(Dice& dice, RandomLoop& loop) {
   loop.model_error = error;
 }
 
-/// Lines of a scene. Six digits are enough to be what was drawn, and short enough to be read.
-class SceneText {
- public:
-  void table(std::string_view name) { text_ += fmt::format("[{}]\n", name); }
-  void number(std::string_view key, double value) {
-    text_ += fmt::format("{} = {:.6g}\n", key, value);
-  }
-  void number_unless_zero(std::string_view key, double value) {
-    if (value != 0.0) {
-      number(key, value);
-    }
-  }
-  void word(std::string_view key, std::string_view value) {
-    text_ += fmt::format("{} = \"{}\"\n", key, value);
-  }
-  void line(const std::string& text) { text_ += text + '\n'; }
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
-void write_friction(SceneText& text, const RandomLoop& loop) {
-  text.table("friction");
-  text.word("law", loop.law);
-  text.number("coefficient", loop.coefficient);
-  text.number("normal_force_N", loop.normal_force_N);
-  text.number_unless_zero("contact_stiffness_N_per_m", loop.contact_stiffness_N_per_m);
-  const LawNumbers& own = loop.law_numbers;
-  if (own.elements > 0) {
-    text.line(fmt::format("elements = {}", own.elements));
-  }
-  text.number_unless_zero("static_coefficient", own.static_coefficient);
-  text.number_unless_zero("stribeck_velocity_m_per_s", own.stribeck_velocity_m_per_s);
-  text.number_unless_zero("bristle_damping_N_s_per_m", own.bristle_damping_N_s_per_m);
-  text.number_unless_zero("viscous_friction_N_s_per_m", own.viscous_friction_N_s_per_m);
-  text.number_unless_zero("fall_s_per_m", own.fall_s_per_m);
-  text.number_unless_zero("rise_s3_per_m3", own.rise_s3_per_m3);
-  text.number_unless_zero("normal_contact_stiffness_N_per_m", own.normal_contact_stiffness_N_per_m);
-}
-
 double nominal_mode_per_carrier(const RandomLoop& loop) {
   return loop.mode_per_carrier * (loop.model_error ? std::sqrt(loop.model_error->stiffness) : 1.0);
 }
@@ -295,18 +263,18 @@ bool biased(const RandomLoop& loop, Vibration vibration) {
 }
 
 /// A bias limit of about what design recommends, for a slow mode; and how the drive passes.
-void write_drive(SceneText& text, const RandomLoop& loop, Vibration vibration) {
-  text.table("drive");
-  text.number("frequency_Hz", loop.frequency_Hz);
-  text.number("max_force_amplitude_N", loop.max_force_amplitude_N);
+std::string drive_text(const RandomLoop& loop, Vibration vibration) {
+  std::string text = "[drive]\n" + line("frequency_Hz", loop.frequency_Hz) +
+                     line("max_force_amplitude_N", loop.max_force_amplitude_N);
   if (biased(loop, vibration)) {
-    text.number("bias_limit_N", 2.0 * friction_N(loop) +
-                                    0.056 * loop.mode_per_carrier * loop.max_force_amplitude_N);
+    text += line("bias_limit_N", 2.0 * friction_N(loop) +
+                                     0.056 * loop.mode_per_carrier * loop.max_force_amplitude_N);
   }
   if (vibration == Vibration::all_means && means_for(loop).ramped()) {
-    text.word("interpolation", "linear");
-    text.line(fmt::format("codes_per_period = {}", means_for(loop).codes_per_period));
+    text +=
+        "interpolation = \"linear\"\n" + line("codes_per_period", means_for(loop).codes_per_period);
   }
+  return text;
 }
 
 bool observes(const RandomLoop& loop, Vibration vibration) {
@@ -314,69 +282,60 @@ bool observes(const RandomLoop& loop, Vibration vibration) {
                                            : vibration != Vibration::unseen;
 }
 
-void write_controller(SceneText& text, const RandomLoop& loop, Vibration vibration) {
+std::string controller_text(const RandomLoop& loop, Vibration vibration) {
   std::string targets;
   double begin_s = 0.0;
   for (std::size_t i = 0; i < steps_per_loop; ++i) {
     targets += fmt::format("{}[{:.6g}, {:.6g}]", i == 0 ? "" : ", ", begin_s, loop.targets[i]);
     begin_s += loop.step_s[i] + (i == 0 ? loop.calibration_s : 0.0);
   }
-  text.table("run");
-  text.number("duration_s", begin_s);
-  text.table("controller");
   const bool damped = observes(loop, vibration);
   const bool finer = damped || vibration == Vibration::all_means;
-  text.word("arithmetic", finer && loop.arithmetic == "q15" ? "q31" : loop.arithmetic);
-  if (damped) {
-    text.word("vibration", "damped");
-  }
+  std::string means = damped ? "vibration = \"damped\"\n" : "";
   if (vibration == Vibration::all_means && means_for(loop).shaping_range > 0.0) {
-    text.word("shaping", "robust");
-    text.number("shaping_range", means_for(loop).shaping_range);
+    means += "shaping = \"robust\"\n" + line("shaping_range", means_for(loop).shaping_range);
   }
-  text.line(fmt::format("target_friction_ratio = [{}]", targets));
-  if (vibration != Vibration::damped_alone) {
-    text.number_unless_zero("calibration_s", loop.calibration_s);
-  }
+  const bool calibrates = vibration != Vibration::damped_alone;
+  return fmt::format(R"([run]
+duration_s = {:.6g}
+[controller]
+arithmetic = "{}"
+{}target_friction_ratio = [{}]
+{})",
+                     begin_s, finer && loop.arithmetic == "q15" ? "q31" : loop.arithmetic, means,
+                     targets,
+                     line_unless_zero("calibration_s", calibrates ? loop.calibration_s : 0.0));
 }
 
-void write_sensor(SceneText& text, const RandomLoop& loop, Vibration vibration) {
+std::string sensor_text(const RandomLoop& loop, Vibration vibration) {
   const SensorNumbers& sensor = loop.sensor;
   const bool damped = vibration == Vibration::damped || vibration == Vibration::damped_alone ||
                       vibration == Vibration::damped_biased;
   if (sensor.ideal() && !damped) {
-    return;
+    return "";
   }
-  text.table("sensor");
+  std::string text = "[sensor]\n";
   if (damped) {
-    text.word("vibration", "velocity");
-    text.line("vibration_bits = 14");
+    text += "vibration = \"velocity\"\nvibration_bits = 14\n";
   }
   if (vibration == Vibration::damped_alone) {
-    text.line("force = false");
-    return;
+    return text + "force = false\n";
   }
-  if (sensor.adc_bits) {
-    text.line(fmt::format("adc_bits = {}", *sensor.adc_bits));
-  }
-  text.number_unless_zero("force_noise_N", sensor.force_noise_N);
-  text.number_unless_zero("force_bandwidth_Hz", sensor.force_bandwidth_Hz.value_or(0.0));
-  if (sensor.delay_periods > 0) {
-    text.line(fmt::format("delay_periods = {}", sensor.delay_periods));
-  }
-  text.line(fmt::format("seed = {}", loop.index));
+  return text + line_unless_zero("adc_bits", sensor.adc_bits.value_or(0)) +
+         line_unless_zero("force_noise_N", sensor.force_noise_N) +
+         line_unless_zero("force_bandwidth_Hz", sensor.force_bandwidth_Hz.value_or(0.0)) +
+         line_unless_zero("delay_periods", sensor.delay_periods) +
+         fmt::format("seed = {}\n", loop.index);
 }
 
-void write_model_error(SceneText& text, const RandomLoop& loop) {
+std::string model_error_text(const RandomLoop& loop) {
   if (!loop.model_error) {
-    return;
+    return "";
   }
-  text.table("model_error");
-  text.number("stiffness", loop.model_error->stiffness);
-  text.number("coefficient", loop.model_error->coefficient);
-  if (has_contact_stiffness(loop)) {
-    text.number("contact_stiffness", loop.model_error->contact_stiffness);
-  }
+  const ModelErrorNumbers& error = *loop.model_error;
+  return "[model_error]\n" + line("stiffness", error.stiffness) +
+         line("coefficient", error.coefficient) +
+         (has_contact_stiffness(loop) ? line("contact_stiffness", error.contact_stiffness) : "");
 }
 
 /// By how much the mode turns otherwise than believed in a carrier period.
@@ -437,21 +396,24 @@ RandomLoop random_loop(std::uint32_t seed, std::uint32_t index) {
 }
 
 std::string scene_text(const RandomLoop& loop, Vibration vibration) {
-  SceneText text;
-  text.table("plant");
-  text.number("mass_kg", loop.mass_kg);
-  text.number("stiffness_N_per_m", loop.stiffness_N_per_m);
-  text.number_unless_zero("damping_N_s_per_m", loop.damping_N_s_per_m);
-  write_friction(text, loop);
-  text.table("sliding");
-  text.number("velocity_m_per_s", loop.sliding_velocity_m_per_s);
-  write_drive(text, loop, vibration);
-  text.table("solver");
-  text.number("tolerance", 1e-8);
-  write_controller(text, loop, vibration);
-  write_sensor(text, loop, vibration);
-  write_model_error(text, loop);
-  return text.take();
+  const std::string plant = fmt::format(
+      R"([plant]
+mass_kg = {:.6g}
+stiffness_N_per_m = {:.6g}
+{}[friction]
+law = "{}"
+coefficient = {:.6g}
+normal_force_N = {:.6g}
+{}{}[sliding]
+velocity_m_per_s = {:.6g}
+)",
+      loop.mass_kg, loop.stiffness_N_per_m,
+      line_unless_zero("damping_N_s_per_m", loop.damping_N_s_per_m), loop.law, loop.coefficient,
+      loop.normal_force_N,
+      line_unless_zero("contact_stiffness_N_per_m", loop.contact_stiffness_N_per_m), loop.law_keys,
+      loop.sliding_velocity_m_per_s);
+  return plant + drive_text(loop, vibration) + "[solver]\ntolerance = 1e-08\n" +
+         controller_text(loop, vibration) + sensor_text(loop, vibration) + model_error_text(loop);
 }
 
 }  // namespace sonoglide::random_loops

@@ -24,18 +24,6 @@ inline constexpr double near_multiple = 0.04;
 
 inline constexpr std::size_t steps_per_loop = 3;
 
-/// What the friction law has beyond the contact; the members that it has no use for are 0.
-struct LawNumbers {
-  int elements = 0;
-  double static_coefficient = 0.0;
-  double stribeck_velocity_m_per_s = 0.0;
-  double bristle_damping_N_s_per_m = 0.0;
-  double viscous_friction_N_s_per_m = 0.0;
-  double fall_s_per_m = 0.0;
-  double rise_s3_per_m3 = 0.0;
-  double normal_contact_stiffness_N_per_m = 0.0;
-};
-
 struct SensorNumbers {
   std::optional<int> adc_bits;
   double force_noise_N = 0.0;
@@ -72,7 +60,7 @@ struct RandomLoop {
   double coefficient = 0.0;
   double normal_force_N = 0.0;
   double contact_stiffness_N_per_m = 0.0;
-  LawNumbers law_numbers;
+  std::string law_keys;  ///< what the law has beyond the contact, as lines of [friction]
   double sliding_velocity_m_per_s = 0.0;
   double frequency_Hz = 0.0;
   double max_force_amplitude_N = 0.0;

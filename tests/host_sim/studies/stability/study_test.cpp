@@ -51,12 +51,9 @@ class StabilityStudyTest : public testing::Test {
     }
   }
 
-  static fs::path folder_;
-  static StabilityStudy result_;
+  static inline fs::path folder_;
+  static inline StabilityStudy result_;
 };
-
-fs::path StabilityStudyTest::folder_;
-StabilityStudy StabilityStudyTest::result_;
 
 TEST_F(StabilityStudyTest, WritesEveryMapCell) {
   for (const char* name : {"stability_map.csv", "stability_map_float32.csv"}) {

@@ -1,22 +1,12 @@
-/// The same scenes by the classical Runge–Kutta method, fixed step.
+/// The loop by hand of the classical Runge–Kutta method, fixed step.
+#pragma once
 
 #include "cost_by_hand.hpp"
+#include "cost_scene.hpp"
 #include "firmware/numeric/float_elementary.hpp"
 #include "firmware/numeric/scalar.hpp"
 
 namespace sonoglide::cost::by_hand {
-namespace {
-
-enum class Law { none, coulomb, dahl };
-
-/// What a rung names.
-struct Named {
-  Law law;
-  bool driven;
-  bool damped;
-  bool energy;
-};
-
 /// The plant at one stage of a step; slopes with respect to tau.
 struct Stage {
   double drive;
@@ -151,7 +141,7 @@ inline Rotation rotation_of(const Scene& scene, double spacing) {
   return true;
 }
 
-[[gnu::always_inline]] inline Result run(const Scene& scene, const Named& named) {
+[[gnu::always_inline]] inline Result rk4(const Scene& scene, const Named& named) {
   const double steps = two_pi / fixed_step * (1.0 - 1e-5);
   const int whole = static_cast<int>(steps);
   const int count = steps > whole ? whole + 1 : whole;
@@ -162,36 +152,6 @@ inline Rotation rotation_of(const Scene& scene, double spacing) {
     }
   }
   return state;
-}
-
-}  // namespace
-
-Result rk4_free_oscillator(const Scene& scene) {
-  return run(scene, {Law::none, false, false, false});
-}
-Result rk4_damped_oscillator(const Scene& scene) {
-  return run(scene, {Law::none, false, true, false});
-}
-Result rk4_driven_oscillator(const Scene& scene) {
-  return run(scene, {Law::none, true, false, false});
-}
-Result rk4_driven_damped_oscillator(const Scene& scene) {
-  return run(scene, {Law::none, true, true, false});
-}
-Result rk4_coulomb(const Scene& scene) {
-  return run(scene, {Law::coulomb, true, false, false});
-}
-Result rk4_undriven_dahl(const Scene& scene) {
-  return run(scene, {Law::dahl, false, false, false});
-}
-Result rk4_dahl(const Scene& scene) {
-  return run(scene, {Law::dahl, true, false, false});
-}
-Result rk4_damped_dahl(const Scene& scene) {
-  return run(scene, {Law::dahl, true, true, false});
-}
-Result rk4_dahl_energy(const Scene& scene) {
-  return run(scene, {Law::dahl, true, false, true});
 }
 
 }  // namespace sonoglide::cost::by_hand
