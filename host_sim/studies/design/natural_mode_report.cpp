@@ -103,7 +103,7 @@ Advice mode_advice(const NaturalModeStudy& mode) {
 }
 
 /// Of the controller of damped_by_force.toml: float32 on a Cortex-M4F to Q31 on a Cortex-M3.
-constexpr const char* observer_cost = "1090 to 2075 instructions a period and 18 kB";
+constexpr const char* observer_cost = "1089 to 2074 instructions a period and 18 kB";
 
 Advice controller_advice(const NaturalModeStudy& mode) {
   const QuietDrive& best = mode.drives[mode.best_drive];
