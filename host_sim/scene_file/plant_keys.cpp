@@ -208,9 +208,10 @@ std::vector<Key> drive_keys() {
        open_loop + uses::in_volts},
       {"waveform", choice<scene::waveforms, &scene::Scene::drive, &Drive::waveform>(),
        Word{words_of(scene::waveforms)}, scene::name_of(scene::waveforms, drive.waveform),
-       fmt::format("shape of the drive force, with its peak at phase 0; a shape other than cosine "
-                   "needs {}",
-                   uses::methods_where(scene::follows_straight_drives))},
+       fmt::format(
+           "shape of the drive force, with its peak at phase 0, where the positive half of a "
+           "square begins; a shape other than cosine is not for a [transducer], and needs {}",
+           uses::methods_where(scene::follows_straight_drives))},
       {"max_force_amplitude_N", of_drive<&Drive::max_force_amplitude_N>, Number{least_force_range},
        Instead{"force_amplitude_N"}, "limit of the actuator: largest amplitude of the drive force",
        closed_loop + uses::in_newtons},

@@ -19,8 +19,9 @@ namespace sonoglide::loop {
 
 /// What the friction ratio asks of the sliding of a load.
 ///
-/// Observes the steps of one interval (see plant::NoObserver), in which the sliding velocity is smooth,
-/// and integrates its modulus and the undriven friction by Gauss-Legendre quadrature in each.
+/// Observes the steps of one interval (see plant::NoObserver), in which the sliding velocity r is smooth,
+/// and integrates |r| and the undriven friction by Gauss-Legendre quadrature between its turns, r = 0, where
+/// both have a kink. Turns closer together than the nodes of a step are passed over.
 class LoadMotion {
  public:
   /// @param undriven  null: the friction limit, at any speed. Outlives this
@@ -29,19 +30,27 @@ class LoadMotion {
 
   template <class Step>
   void operator()(const Step& step) {
-    static constexpr auto rule = numeric::gauss_legendre<8>();
-    const double length = step.length();
-    see(step.at(0.0).sliding_velocity);
-    see(step.at(length).sliding_velocity);
-    for (std::size_t i = 0; i < rule.node.size(); ++i) {
-      const double velocity = step.at(length * rule.node[i]).sliding_velocity;
-      see(velocity);
-      distance_ += length * rule.weight[i] * std::abs(velocity);
-      undriven_ += length * rule.weight[i] *
-                   (undriven_friction_ == nullptr
-                        ? 1.0
-                        : undriven_friction_->part_at(velocity * velocity_unit_m_per_s_));
+    const auto velocity_at = [&](double offset) { return step.at(offset).sliding_velocity; };
+    double offset = 0.0;
+    double velocity = velocity_at(offset);
+    double turned = 0.0;
+    see(velocity);
+    const auto go_to = [&](double next) {
+      const double there = velocity_at(next);
+      see(there);
+      if (velocity * there < 0.0) {
+        const double turn = turn_between(velocity_at, offset, next);
+        integrate(velocity_at, turned, turn);
+        turned = turn;
+      }
+      offset = next;
+      velocity = there;
+    };
+    for (const double node : rule.node) {
+      go_to(step.length() * node);
     }
+    go_to(step.length());
+    integrate(velocity_at, turned, step.length());
   }
 
   double distance() const { return distance_; }  ///< integral of |r| over tau
@@ -50,6 +59,31 @@ class LoadMotion {
   double direction() const { return slowest_ > 0.0 ? 1.0 : fastest_ < 0.0 ? -1.0 : 0.0; }
 
  private:
+  static constexpr auto rule = numeric::gauss_legendre<8>();
+
+  template <class Velocity>
+  void integrate(const Velocity& velocity_at, double begin, double end) {
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const double weight = (end - begin) * rule.weight[i];
+      const double velocity = velocity_at(begin + (end - begin) * rule.node[i]);
+      distance_ += weight * std::abs(velocity);
+      undriven_ += weight * (undriven_friction_ == nullptr
+                                 ? 1.0
+                                 : undriven_friction_->part_at(velocity * velocity_unit_m_per_s_));
+    }
+  }
+
+  /// By bisection. The distance is flat over the place of the turn: half of the digits are enough.
+  template <class Velocity>
+  static double turn_between(const Velocity& velocity_at, double before, double after) {
+    const bool forwards = velocity_at(before) > 0.0;
+    for (int halving = 0; halving < 26; ++halving) {
+      const double middle = 0.5 * (before + after);
+      ((velocity_at(middle) > 0.0) == forwards ? before : after) = middle;
+    }
+    return after;
+  }
+
   void see(double velocity) {
     slowest_ = std::min(slowest_, velocity);
     fastest_ = std::max(fastest_, velocity);

@@ -172,4 +172,5 @@ def friction_ratio(velocity_ratio: ArrayLike, dahl_number: ArrayLike) -> Any:
     dahl_number     Kt X / Fc [-], 1e-12 to 1e12; inf is a Coulomb contact, whose ratio is
                     (2/pi) asin r
     """
+    np.broadcast(velocity_ratio, dahl_number)  # ValueError where the shapes do not fit
     return _core.friction_ratio(velocity_ratio, dahl_number)

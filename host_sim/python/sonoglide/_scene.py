@@ -59,9 +59,10 @@ class Scene(_core.Scene):
     """
 
     def __init__(self, path: str | PathLike[str], overrides: Mapping[str, Any] = {}) -> None:
-        with open(path, "rb"):
+        file = Path(path)  # open() alone would take a number for a file that is open, and close it
+        with open(file, "rb"):
             pass
-        super().__init__(Path(path), _options(overrides))
+        super().__init__(file, _options(overrides))
 
     @staticmethod
     def from_text(text: str, overrides: Mapping[str, Any] = {}, name: str = "scene") -> Scene:

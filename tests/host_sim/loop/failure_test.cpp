@@ -108,6 +108,19 @@ TEST(FailureTest, TheTrueCauseOfManyStepsIsNamed) {
   }
 }
 
+TEST(FailureTest, AContactAcrossTheSlidingThatComesToRestIsNamed) {
+  scene::Scene scene = table_1();
+  scene.friction.law = scene::laws::TransverseCoulomb{};
+  scene.friction.normal_force_N = 20.0;
+  scene.drive->force_amplitude_N = 0.0;
+  scene.plant.initial_velocity_m_per_s = 0.01;
+  scene.sliding.profile = {{0.0, 0.02}, {1e-3, -0.02}};
+  const std::string message = failure(scene);
+  EXPECT_NE(message.find("the contact comes to rest, with sliding and vibration at 0 together"),
+            std::string::npos)
+      << message;
+}
+
 TEST(FailureTest, ALoadsDamperThatIsTooFastIsNamed) {
   scene::Scene scene = table_1();
   scene.sliding = {};

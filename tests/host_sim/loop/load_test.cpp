@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "firmware/friction/dahl_friction_ratio.hpp"
+#include "firmware/numeric/turn.hpp"
 #include "host_sim/configure/experiment.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/stepped.hpp"
@@ -130,6 +131,27 @@ TEST(LoadSceneTest, BalancesTheEnergyOfBothBodies) {
                 1e-9 * std::abs(whole.load.stored_begin_J));
     EXPECT_NE(whole.load.force_work_J, 0.0);
     EXPECT_NE(whole.load.spring_pull_work_J, 0.0);
+  }
+}
+
+/// A load on a spring, next to without friction: x = (v0/ω) sin ωt goes 2/π v0 t, however a step holds its turns.
+TEST(LoadSceneTest, GoesTheDistanceOfALoadThatTurns) {
+  for (const double frequency_Hz : {500.0, 7e3, 20e3, 60e3}) {
+    for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+      scene::Load load = moving(1.0, 0.01);
+      const double omega = numeric::two_pi * frequency_Hz;
+      load.spring_N_per_m = omega * omega;
+      scene::Scene scene = with_load(table_1(), load);
+      scene.friction.law = scene::laws::Coulomb{};
+      scene.friction.normal_force_N = 1e-9;
+      scene.drive->frequency_Hz = 20e3;
+      scene.solver.tolerance = tolerance;
+      scene.run.duration_s = 5e-3;
+      scene.run.window_start_s = 0.0;
+      const double exact_m = 2.0 / numeric::half_turn * 0.01 * scene.run.duration_s;
+      EXPECT_NEAR(run(scene).window.sliding_distance_m / exact_m, 1.0, 1e-9)
+          << frequency_Hz << " " << tolerance;
+    }
   }
 }
 

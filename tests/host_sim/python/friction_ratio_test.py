@@ -31,6 +31,11 @@ def test_numbers_and_arrays_are_broadcast():
     assert isinstance(sonoglide.friction_ratio(0.5, 1.0), float)
 
 
+def test_shapes_that_do_not_fit_are_refused():
+    with pytest.raises(ValueError, match="shape"):
+        sonoglide.friction_ratio([0.1, 0.2, 0.3], [1.0, 2.0])
+
+
 @pytest.mark.parametrize("ratio, number", [(numpy.nan, 1.0), (numpy.inf, 1.0), (0.5, 0.0), (0.5, -1.0), (0.5, 1e13)])
 def test_numbers_out_of_range_are_refused(ratio, number):
     with pytest.raises(ValueError, match="allowed: "):

@@ -85,6 +85,13 @@ def test_a_missing_file_is_an_error_of_the_system(name):
         sonoglide.Scene(name)
 
 
+def test_a_number_is_no_file(capfd):
+    with pytest.raises(TypeError):
+        sonoglide.Scene(True)
+    print("still open", flush=True)
+    assert capfd.readouterr().out == "still open\n"
+
+
 def test_a_folder_is_no_scene(tmp_path):
     with pytest.raises(IsADirectoryError):
         sonoglide.Scene(tmp_path)
