@@ -81,12 +81,13 @@ Complex Circuit::admittance_S(double frequency_Hz, Eigen::VectorXcd* derivatives
       (*derivatives)(index_of(Part::lean)) += i == 0 ? slope * (2.0 * power) : 0.0;
     }
   }
-  const Complex rotated = std::polar(1.0, rotation_rad);
+  const Complex rotated = std::polar(1.0, rotation_rad + omega * delay_s);
   const Complex divider = 1.0 + Complex(lead.resistance_ohm, omega * lead.inductance_H) * sum;
   const Complex y = sum / divider;
   if (derivatives != nullptr) {
     *derivatives *= rotated / (divider * divider);
     (*derivatives)(index_of(Part::rotation)) = j * rotated * y;
+    (*derivatives)(index_of(Part::delay)) = j * omega * rotated * y;
     (*derivatives)(index_of(Part::lead_resistance)) = -rotated * y * y;
     (*derivatives)(index_of(Part::lead_inductance)) = -j * omega * rotated * y * y;
   }
@@ -109,6 +110,8 @@ double& element(Circuit& circuit, Part part) {
       return circuit.loss_tangent;
     case Part::rotation:
       return circuit.rotation_rad;
+    case Part::delay:
+      return circuit.delay_s;
     case Part::lead_resistance:
       return circuit.lead.resistance_ohm;
     case Part::lead_inductance:
@@ -119,9 +122,9 @@ double& element(Circuit& circuit, Part part) {
 }
 
 const char* name_of(Part part) {
-  constexpr const char* names[part_count] = {"loss_tangent", "phase_rotation_rad",
-                                             "lead_resistance_ohm", "lead_inductance_H",
-                                             "lean_bandwidths"};
+  constexpr const char* names[part_count] = {"loss_tangent",      "phase_rotation_rad",
+                                             "channel_delay_s",   "lead_resistance_ohm",
+                                             "lead_inductance_H", "lean_bandwidths"};
   return names[static_cast<std::size_t>(part)];
 }
 
@@ -147,7 +150,8 @@ std::vector<Eigen::Index> Parts::indices() const {
 Eigen::VectorXd to_vector(const Circuit& circuit) {
   Eigen::VectorXd p(first_mode + 3 * static_cast<Eigen::Index>(circuit.modes.size()));
   p.head<first_mode>() << std::log(circuit.clamped_capacitance_F), circuit.loss_tangent,
-      circuit.rotation_rad, circuit.lead.resistance_ohm, circuit.lead.inductance_H, circuit.lean;
+      circuit.rotation_rad, circuit.delay_s, circuit.lead.resistance_ohm, circuit.lead.inductance_H,
+      circuit.lean;
   Eigen::Index at = first_mode;
   for (const Mode& mode : circuit.modes) {
     p.segment<3>(at) << std::log(mode.conductance_S), std::log(mode.resonance_Hz),
@@ -158,7 +162,11 @@ Eigen::VectorXd to_vector(const Circuit& circuit) {
 }
 
 Circuit to_circuit(const Eigen::VectorXd& p) {
-  Circuit circuit{std::exp(p(0)), p(1), {}, {p(3), p(4)}, p(2), p(5)};
+  Circuit circuit{std::exp(p(0)), 0.0, {}};
+  for (std::size_t i = 0; i < part_count; ++i) {
+    const auto part = static_cast<Part>(i);
+    element(circuit, part) = p(index_of(part));
+  }
   for (Eigen::Index at = first_mode; at < p.size(); at += 3) {
     circuit.modes.push_back({std::exp(p(at)), std::exp(p(at + 1)), std::exp(p(at + 2))});
   }

@@ -1,6 +1,7 @@
 /// The equivalent circuit of a transducer: a lossy clamped capacitance beside series branches of
 /// resistance, inductance and capacitance, a branch a mode (Butterworth–Van Dyke), behind the
-/// resistance and inductance of the leads, seen by an instrument whose phase may be off.
+/// resistance and inductance of the leads, seen by an instrument whose phase may be off by an angle and
+/// by a delay between its channels.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,6 +42,9 @@ struct Circuit {
   std::vector<Mode> modes;  ///< the first is the one that is identified
   Lead lead = {};
   double rotation_rad = 0.0;  ///< by which every phase of the admittance is read too large
+  /// Of the voltage's channel behind the current's: every phase of the admittance is read too large by
+  /// 2π f times it.
+  double delay_s = 0.0;
   /// By how many band widths the resonance of the first mode is lower at the largest current than at
   /// a small one: f0 = fs − lean Δ |i/i_max|². Below 0 it is higher. A mode of resistance, mass and a
   /// spring that softens or stiffens with the square of the displacement (Duffing) has one.
@@ -56,9 +60,16 @@ struct Circuit {
 };
 
 /// What a circuit may have beside clamped capacitance and modes.
-enum class Part : std::size_t { loss_tangent, rotation, lead_resistance, lead_inductance, lean };
+enum class Part : std::size_t {
+  loss_tangent,
+  rotation,
+  delay,
+  lead_resistance,
+  lead_inductance,
+  lean
+};
 
-inline constexpr std::size_t part_count = 5;
+inline constexpr std::size_t part_count = 6;
 
 double& element(Circuit& circuit, Part part);
 /// As identify.json names it.
@@ -81,6 +92,8 @@ struct Parts {
 
   bool has(Part part) const { return fitted[static_cast<std::size_t>(part)]; }
   bool has_lead() const { return has(Part::lead_resistance) || has(Part::lead_inductance); }
+  /// What turns the phases beside a rotation of all by one angle.
+  bool has_lead_or_delay() const { return has_lead() || has(Part::delay); }
   Parts with(Part part, bool is_fitted = true) const;
   /// Of the elements of the vector that are fitted.
   std::vector<Eigen::Index> indices() const;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 #include "host_sim/studies/identify/impedance/circuit.hpp"
 #include "host_sim/studies/identify/impedance/sweep.hpp"
 
@@ -89,6 +91,13 @@ struct Description {
   bool fails() const;
 };
 
+/// One of several circuits that may be the right one.
+struct Alternative {
+  Circuit circuit;
+  Eigen::MatrixXd covariance;  ///< of its vector
+  double weight;               ///< its probability
+};
+
 struct CircuitFit {
   Parts parts;
   Circuit circuit = {};
@@ -100,6 +109,9 @@ struct CircuitFit {
   Eigen::MatrixXd covariance;
   double deviance = 0.0;  ///< −2 ln likelihood, comparable between circuits of one sweep
   bool converged = false;
+  /// Where several circuits may be the right one, they and the fit itself; the intervals are those of the
+  /// mixture.
+  std::vector<Alternative> alternatives = {};
 };
 
 /// Residuals and slopes at a circuit, whether it is the best one or not.

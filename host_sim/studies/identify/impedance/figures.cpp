@@ -71,35 +71,116 @@ double t_of(const CircuitFit& fit) {
   return student_t_95(std::max(freedom - static_cast<double>(fit.parts.size()), 3.0));
 }
 
-Estimate estimate(const CircuitFit& fit, const Figure& figure) {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(fit.covariance.rows());
+/// What one of the circuits makes of a figure: a Gaussian.
+struct Belief {
+  double centre;
+  double deviation;
+  double weight;  ///< its probability
+};
+
+/// Where the mixture of Gaussians has so much probability below.
+double quantile(const std::vector<Belief>& all, double probability) {
+  constexpr double far = 10.0;
+  double low = all.front().centre;
+  double high = low;
+  for (const Belief& each : all) {
+    low = std::min(low, each.centre - far * each.deviation);
+    high = std::max(high, each.centre + far * each.deviation);
+  }
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    double below = 0.0;
+    for (const Belief& each : all) {
+      const double away = (each.centre - middle) / std::max(each.deviation, 1e-300);
+      below += each.weight * 0.5 * std::erfc(std::sqrt(0.5) * away);
+    }
+    (below < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+struct Interval {
+  double low;
+  double high;
+};
+
+/// Of 95 %: of one Gaussian by Student's t, of a mixture between the quantiles, each deviation wider by
+/// as much as t is than that of a Gaussian. It has the centre of the fit, the last one, in it.
+Interval interval_of(std::vector<Belief> all, double t) {
+  const Belief fitted = all.back();
+  const double half = t * fitted.deviation;
+  if (all.size() == 1) {
+    return {fitted.centre - half, fitted.centre + half};
+  }
+  constexpr double of_gaussian = 1.959964;
+  for (Belief& each : all) {
+    each.deviation *= t / of_gaussian;
+  }
+  constexpr double tail = 0.025;
+  return {std::min(quantile(all, tail), fitted.centre),
+          std::max(quantile(all, 1.0 - tail), fitted.centre)};
+}
+
+/// The circuits that the intervals are of, the fit's own last.
+std::vector<Alternative> circuits_of(const CircuitFit& fit) {
+  return fit.alternatives.empty() ? std::vector<Alternative>{{fit.circuit, fit.covariance, 1.0}}
+                                  : fit.alternatives;
+}
+
+double deviation(const Figure& figure, const Eigen::MatrixXd& covariance) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
   gradient(0) = figure.slopes(0);
   gradient.segment<3>(first_mode) = figure.slopes.tail<3>();
-  const double variance = gradient.dot(fit.covariance * gradient);
-  const double half = t_of(fit) * std::sqrt(std::max(variance, 0.0));
-  return {figure.name, figure.value, figure.value * std::exp(-half), figure.value * std::exp(half)};
+  return std::sqrt(std::max(gradient.dot(covariance * gradient), 0.0));
+}
+
+/// Of positive figures, symmetric in the logarithm where there is one circuit.
+/// @param figures_of  the figures of a circuit
+template <class Figures>
+void append_positive(const CircuitFit& fit, const Figures& figures_of,
+                     std::vector<Estimate>& estimates) {
+  const std::vector<Figure> fitted = figures_of(fit.circuit);
+  std::vector<std::vector<Belief>> beliefs(fitted.size());
+  for (const Alternative& each : circuits_of(fit)) {
+    const std::vector<Figure> found = figures_of(each.circuit);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      beliefs[i].push_back(
+          {std::log(found[i].value), deviation(found[i], each.covariance), each.weight});
+    }
+  }
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const Interval interval = interval_of(beliefs[i], t_of(fit));
+    estimates.push_back(
+        {fitted[i].name, fitted[i].value, std::exp(interval.low), std::exp(interval.high)});
+  }
+}
+
+Estimate part_estimate(const CircuitFit& fit, Part part) {
+  const Eigen::Index at = index_of(part);
+  std::vector<Belief> beliefs;
+  for (const Alternative& each : circuits_of(fit)) {
+    beliefs.push_back(
+        {to_vector(each.circuit)(at), std::sqrt(each.covariance(at, at)), each.weight});
+  }
+  const Interval interval = interval_of(beliefs, t_of(fit));
+  return {name_of(part), beliefs.back().centre, interval.low, interval.high, true};
 }
 
 }  // namespace
 
 std::vector<Estimate> figures(const CircuitFit& fit, const MechanicalFact& fact) {
   std::vector<Estimate> estimates;
-  for (const Figure& each : electrical(fit.circuit)) {
-    estimates.push_back(estimate(fit, each));
-  }
-  const Eigen::VectorXd p = to_vector(fit.circuit);
+  append_positive(fit, electrical, estimates);
   for (std::size_t i = 0; i < part_count; ++i) {
     const auto part = static_cast<Part>(i);
     if (fit.parts.has(part)) {
-      const Eigen::Index at = index_of(part);
-      const double half = t_of(fit) * std::sqrt(fit.covariance(at, at));
-      estimates.push_back({name_of(part), p(at), p(at) - half, p(at) + half, true});
+      estimates.push_back(part_estimate(fit, part));
     }
   }
   if (fact.known()) {
-    for (const Figure& each : mechanical(fit.circuit.modes.front(), fact)) {
-      estimates.push_back(estimate(fit, each));
-    }
+    append_positive(
+        fit, [&](const Circuit& each) { return mechanical(each.modes.front(), fact); }, estimates);
   }
   return estimates;
 }

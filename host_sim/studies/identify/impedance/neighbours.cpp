@@ -1,6 +1,7 @@
 #include "host_sim/studies/identify/impedance/selection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -8,7 +9,13 @@
 namespace sonoglide::identify::impedance {
 namespace {
 
-constexpr Part parts_of_phase[] = {Part::rotation, Part::lead_resistance, Part::lead_inductance};
+constexpr Part parts_of_phase[] = {Part::rotation, Part::delay, Part::lead_resistance,
+                                   Part::lead_inductance};
+
+bool is_of_phase(Part part) {
+  return std::find(std::begin(parts_of_phase), std::end(parts_of_phase), part) !=
+         std::end(parts_of_phase);
+}
 
 /// The mode of the largest conductance, of those in the sweep, in the first place.
 Circuit largest_first(const Sweep& sweep, Circuit circuit) {
@@ -21,9 +28,9 @@ Circuit largest_first(const Sweep& sweep, Circuit circuit) {
   return circuit;
 }
 
-/// Adds the best plausible fit from these.
-void add_best(const Sweep& sweep, const Parts& parts, const Noise& noise,
-              const std::vector<Circuit>& starts, std::vector<CircuitFit>& fits) {
+/// The best plausible fit from these.
+std::optional<CircuitFit> best_fit(const Sweep& sweep, const Parts& parts, const Noise& noise,
+                                   const std::vector<Circuit>& starts) {
   std::optional<CircuitFit> best;
   for (const Circuit& start : starts) {
     CircuitFit fit = fit_circuit(sweep, parts, largest_first(sweep, start), noise);
@@ -31,7 +38,12 @@ void add_best(const Sweep& sweep, const Parts& parts, const Noise& noise,
       best = std::move(fit);
     }
   }
-  if (best) {
+  return best;
+}
+
+void add_best(const Sweep& sweep, const Parts& parts, const Noise& noise,
+              const std::vector<Circuit>& starts, std::vector<CircuitFit>& fits) {
+  if (std::optional<CircuitFit> best = best_fit(sweep, parts, noise, starts)) {
     fits.push_back(*std::move(best));
   }
 }
@@ -75,9 +87,7 @@ std::vector<CircuitFit> larger_fits(const Sweep& sweep, const CircuitFit& fit) {
   std::vector<CircuitFit> fits;
   for (std::size_t i = 0; i < part_count; ++i) {
     const auto part = static_cast<Part>(i);
-    const bool is_of_phase = std::find(std::begin(parts_of_phase), std::end(parts_of_phase),
-                                       part) != std::end(parts_of_phase);
-    if (!fit.parts.has(part) && (sweep.has_phase || !is_of_phase)) {
+    if (!fit.parts.has(part) && (sweep.has_phase || !is_of_phase(part))) {
       add_with_part(sweep, fit, part, least, fits);
     }
   }
@@ -101,7 +111,7 @@ std::vector<CircuitFit> smaller_fits(const Sweep& sweep, const CircuitFit& fit) 
     const bool stays =
         sweep.has_phase &&
         (part == Part::loss_tangent ||
-         (part == Part::rotation && !fit.parts.has_lead() && !fit.description.fails()));
+         (part == Part::rotation && !fit.parts.has_lead_or_delay() && !fit.description.fails()));
     if (fit.parts.has(part) && !stays) {
       add_best(sweep, fit.parts.with(part, false), fit.noise, {with_value(fit.circuit, part, 0.0)},
                fits);
@@ -117,19 +127,47 @@ std::vector<CircuitFit> smaller_fits(const Sweep& sweep, const CircuitFit& fit) 
   return fits;
 }
 
+namespace {
+
+/// Whether the sweep determines a delay, if it is fitted, beside the other parts: to 7.5 degrees at the
+/// resonance, standard deviation, half of what a delay may be. A narrow sweep does not beside a rotation.
+bool determines_delay(const CircuitFit& fit) {
+  constexpr double most_rad = 0.13;
+  const Eigen::Index at = index_of(Part::delay);
+  return two_pi * fit.circuit.modes.front().resonance_Hz * std::sqrt(fit.covariance(at, at)) <
+         most_rad;
+}
+
+}  // namespace
+
+std::optional<CircuitFit> turned_fit(const Sweep& sweep, const CircuitFit& fit,
+                                     const std::vector<Part>& turning) {
+  Parts parts = fit.parts;
+  Circuit start = fit.circuit;
+  for (const Part each : parts_of_phase) {
+    const bool has = std::find(turning.begin(), turning.end(), each) != turning.end();
+    parts = parts.with(each, has);
+    element(start, each) *= has ? 1.0 : 0.0;
+  }
+  if (parts.fitted == fit.parts.fitted) {
+    return std::nullopt;
+  }
+  std::optional<CircuitFit> turned = best_fit(sweep, parts, fit.noise, {start});
+  return turned && determines_delay(*turned) ? turned : std::nullopt;
+}
+
 std::vector<CircuitFit> turned_fits(const Sweep& sweep, const CircuitFit& fit) {
   std::vector<CircuitFit> fits;
-  constexpr unsigned combinations = 8;
-  for (unsigned set = 1; sweep.has_phase && set < combinations; ++set) {
-    Parts parts = fit.parts;
-    Circuit start = fit.circuit;
+  constexpr unsigned combinations = 1U << std::size(parts_of_phase);
+  for (unsigned set = 1; set < combinations; ++set) {
+    std::vector<Part> turning;
     for (unsigned i = 0; i < std::size(parts_of_phase); ++i) {
-      const bool has = (set >> i & 1U) != 0;
-      parts = parts.with(parts_of_phase[i], has);
-      element(start, parts_of_phase[i]) *= has ? 1.0 : 0.0;
+      if ((set >> i & 1U) != 0) {
+        turning.push_back(parts_of_phase[i]);
+      }
     }
-    if (parts.fitted != fit.parts.fitted) {
-      add_best(sweep, parts, fit.noise, {start}, fits);
+    if (std::optional<CircuitFit> turned = turned_fit(sweep, fit, turning)) {
+      fits.push_back(*std::move(turned));
     }
   }
   return fits;

@@ -22,10 +22,13 @@ struct Bounds {
 
 bool has_plausible_parts(const Sweep& sweep, const CircuitFit& fit) {
   constexpr double unbounded = 1e300;
+  constexpr double most_turn_rad = 0.26;
   const Circuit& circuit = fit.circuit;
+  const double resonance_rad_per_s = two_pi * circuit.modes.front().resonance_Hz;
   const Bounds all[] = {
       {Part::loss_tangent, sweep.has_phase ? -unbounded : 0.0, unbounded},
-      {Part::rotation, -0.26, 0.26},
+      {Part::rotation, -most_turn_rad, most_turn_rad},
+      {Part::delay, -most_turn_rad / resonance_rad_per_s, most_turn_rad / resonance_rad_per_s},
       {Part::lead_resistance, 0.0, 0.25 * circuit.modes.front().resistance_ohm()},
       {Part::lead_inductance, 0.0, most_inductance_H(circuit)},
       {Part::lean, -3.0, 3.0},

@@ -30,6 +30,17 @@ bool has_negative_loss(const Sweep& sweep, const CircuitFit& fit, const Descript
          tangent < -many * std::sqrt(fit.covariance(1, 1));
 }
 
+/// Whether a part is seen; of several circuits, whichever of them is right.
+bool is_certain(const CircuitFit& fit, Part part) {
+  if (fit.alternatives.empty()) {
+    return sees(fit, part);
+  }
+  const std::vector<Estimate> all = figures(fit);
+  return std::any_of(all.begin(), all.end(), [&](const Estimate& each) {
+    return each.name == name_of(part) && each.low_95 * each.high_95 > 0.0;
+  });
+}
+
 constexpr std::size_t few = 5;
 
 std::size_t readings_in_band(const Sweep& sweep, const Mode& mode) {
@@ -81,6 +92,8 @@ std::string described_lead(const CircuitFit& fit) {
   append(parts,
          {{fit.parts.has(Part::rotation), fmt::format("an error of every phase by {:.3g} degrees",
                                                       circuit.rotation_rad * degrees_per_rad)},
+          {fit.parts.has(Part::delay),
+           fmt::format("a delay of {} between the channels", formatted("_s", circuit.delay_s))},
           {fit.parts.has(Part::lead_resistance),
            formatted("_ohm", circuit.lead.resistance_ohm) + " in series"},
           {fit.parts.has(Part::lead_inductance),
@@ -99,8 +112,8 @@ std::string open_lead(const Selection& selected) {
     }
   }
   return fmt::format(
-      "Whether leads or an error of the phase rotate the sweep: fitted is {}. {}. A compensation "
-      "of the fixture (open, short, load) removes both.",
+      "Whether leads, an error of the phase or a delay between the channels rotate the sweep: fitted "
+      "is {}. {}. A compensation of the fixture (open, short, load) removes all three.",
       described_lead(selected.fit),
       others.empty() ? "No other is nearly as likely"
                      : fmt::format("About as likely: {}; the intervals allow for it",
@@ -199,11 +212,18 @@ std::vector<std::string> warnings_of(const Selection& selected) {
                     std::abs(circuit.lean), circuit.lean > 0.0 ? "lower" : "higher",
                     formatted("_Hz", mode.resonance_Hz),
                     formatted("_Hz", mode.resonance_Hz - circuit.lean * mode.bandwidth_Hz))},
-       {sees_rotation(fit),
+       {is_certain(fit, Part::rotation),
         fmt::format("The phases are off by {:.3g} degrees all over the sweep; the fit takes that "
                     "out. It is an error of the instrument or the fixture; compensate it (open, "
                     "short, load).",
                     circuit.rotation_rad * degrees_per_rad)},
+       {is_certain(fit, Part::delay),
+        fmt::format(
+            "The phases are off in proportion to the frequency, by {:.3g} degrees at the "
+            "resonance: the voltage is read {} {} than the current. The fit takes that out. "
+            "Compensate the instrument with a known resistor as load.",
+            circuit.delay_s * mode.resonance_Hz * 360.0, formatted("_s", std::abs(circuit.delay_s)),
+            circuit.delay_s > 0.0 ? "later" : "earlier")},
        {is_rounding(fit.at),
         fmt::format("The readings follow the circuit to {:.1g}, as computed ones do: the intervals "
                     "are those of readings rounded to {:.1g}.",
@@ -243,15 +263,7 @@ std::vector<std::string> open_questions(const std::vector<Estimate>& estimates,
        {!sweep.has_phase,
         "Losses of the dielectric: magnitudes alone hardly separate them from the motional "
         "resistance. A sweep with phase does."},
-       {sees_lead_or_rotation(selected.fit), open_lead(selected)},
-       {selected.fit.parts.has_lead(),
-        fmt::format(
-            "Whether voltage and current are measured at the same time: a delay between the two "
-            "channels looks much like a lead, and the intervals do not include it. Each 10 ns "
-            "turns the phase at the resonance by {:.2g} degrees; one of 2 degrees may make the "
-            "motional resistance come out 10 % off. A compensation with a known resistor as "
-            "load removes it.",
-            10e-9 * modes.front().resonance_Hz * 360.0)}});
+       {sees_turned_phase(selected.fit) || !selected.rivals.empty(), open_lead(selected)}});
   for (const Unseen& each : selected.unseen) {
     open.push_back(open_part(each, modes.front()));
   }

@@ -132,15 +132,24 @@ CircuitFit climb(const Sweep& sweep, CircuitFit fit, Neighbours& neighbours,
   }
 }
 
-/// With a rotation where no lead is seen and misfit is none, or with the likeliest lead or rotation.
+/// Schwarz's criterion, and strong evidence for a delay beside another part: two parts together often look
+/// like a lead alone.
+double turning_criterion(const CircuitFit& fit) {
+  const bool is_beside = fit.parts.has_lead() || fit.parts.has(Part::rotation);
+  return schwarz(fit) + (fit.parts.has(Part::delay) && is_beside ? strong_evidence : 0.0);
+}
+
+/// With the likeliest of lead, delay and rotation where one is seen; else, where misfit is none, with a
+/// rotation.
 CircuitFit with_likeliest_of_phase(const Sweep& sweep, CircuitFit fit) {
-  const bool is_seen = sees_lead_or_rotation(fit);
-  const bool lacks_rotation = !is_seen && !fit.parts.has(Part::rotation);
-  if (!is_seen && (!lacks_rotation || fit.description.fails())) {
+  if (!sweep.has_phase) {
     return fit;
   }
+  if (!sees_turned_phase(fit)) {
+    return fit.description.fails() ? fit : turned_fit(sweep, fit, {Part::rotation}).value_or(fit);
+  }
   for (CircuitFit& each : turned_fits(sweep, fit)) {
-    if (is_seen ? schwarz(each) < schwarz(fit) : !each.parts.has_lead()) {
+    if (turning_criterion(each) < turning_criterion(fit)) {
       fit = std::move(each);
     }
   }

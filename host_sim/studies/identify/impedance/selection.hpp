@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "host_sim/studies/identify/impedance/circuit_fit.hpp"
@@ -14,17 +15,25 @@ namespace sonoglide::identify::impedance {
 /// The most modes of a circuit.
 inline constexpr int most_modes = 8;
 
-/// With one part or mode more, as far as plausible: lean; with phase, lead and rotation; without, loss
-/// tangent. What takes less than 4 from −2 ln likelihood by its linearisation is left out, unless the
+/// With one part or mode more, as far as plausible: lean; with phase, lead, delay and rotation; without,
+/// loss tangent. What takes less than 4 from −2 ln likelihood by its linearisation is left out, unless the
 /// fit does not describe the sweep; not so a lean, which has minima on either side of none.
 std::vector<CircuitFit> larger_fits(const Sweep& sweep, const CircuitFit& fit);
 
-/// With one part or mode less. A loss tangent is always fitted to phases, and a rotation where no lead is
-/// and the circuit describes the sweep: to leave out what the sweep does not rule out would make the
-/// figures too sure.
+/// With one part or mode less. A loss tangent is always fitted to phases, and a rotation where neither a
+/// lead nor a delay is and the circuit describes the sweep: to leave out what the sweep does not rule out
+/// would make the figures too sure.
 std::vector<CircuitFit> smaller_fits(const Sweep& sweep, const CircuitFit& fit);
 
-/// With another choice of lead and rotation, which look like each other.
+/// With these of rotation, delay, resistance and inductance of leads, and without the others; none where
+/// the fit has them, is not plausible with them, or the sweep does not determine the delay beside the others.
+/// @pre the sweep has phase
+std::optional<CircuitFit> turned_fit(const Sweep& sweep, const CircuitFit& fit,
+                                     const std::vector<Part>& turning);
+
+/// With every other choice of rotation, delay and lead but none of them: they look like each other.
+/// Beside a loss tangent, G and Δ of the mode, a resistance Rs is, to first order, a delay of −C0 Rs with a
+/// rotation of −ω C0 Rs. @pre the sweep has phase
 std::vector<CircuitFit> turned_fits(const Sweep& sweep, const CircuitFit& fit);
 
 // What the parts of a circuit can be.
@@ -44,7 +53,7 @@ double most_inductance_H(const Circuit& circuit);
 
 /// Whether least squares found a minimum whose parts can be what they are named: a lead of resistance
 /// from 0 to a quarter of the motional one and of inductance from 0 to most_inductance_H; phases off by
-/// up to 15 degrees; a lean of up to 3 band widths; in magnitudes alone a loss above 0; further modes
+/// up to 15 degrees, and by a delay as far at the resonance; a lean of up to 3 band widths; in magnitudes alone a loss above 0; further modes
 /// apart from the others, in the sweep, up to twice as wide as it and with two readings in the band, or,
 /// of sweeps with phase, up to two by up to half of its span beside it, at most ten times the first and
 /// of up to four times its quality factor or a quarter.
@@ -125,7 +134,7 @@ struct Selection {
   CircuitFit fit;                   ///< of the readings that are left
   Sweep sweep;                      ///< them
   std::vector<double> left_out_Hz;  ///< frequencies of readings that stand alone (find_strays)
-  /// Where a lead or a rotation of the phase is seen: the others that may be it.
+  /// Where a lead, a delay or a rotation of the phase is seen: the others that may be it.
   std::vector<Rival> rivals = {};
   std::vector<Unseen> unseen = {};
 };
@@ -138,8 +147,8 @@ inline constexpr double strong_evidence = 6.0;
 /// The circuit of the sweep: clamped capacitance, one mode, with phase the loss tangent, and of the rest
 /// (larger_fits) what there is strong evidence for. Where a circuit does not describe the sweep, a part
 /// that is no mode has to explain half of the misfit: where none does, each takes a little away; and what
-/// explains half is fitted in any case. With phase there is a rotation of the phase, unless a lead is seen
-/// or the circuit does not describe the sweep. The first mode is the one of the largest conductance.
+/// explains half is fitted in any case. With phase there is a rotation of the phase, unless a lead or a
+/// delay is seen or the circuit does not describe the sweep. The first mode is the one of the largest conductance.
 ///
 /// Parts are added one after another, the likeliest first, as if all noise were white; then each is taken
 /// out again that is not seen beside correlated noise: several that are left out hide each other and look
@@ -153,19 +162,22 @@ Selection select_circuit(const Sweep& sweep);
 
 // What a selection of a circuit leaves uncertain.
 
-/// Whether the phases are off by more than chance explains.
-bool sees_rotation(const CircuitFit& fit);
+/// Whether a part is further from 0 than chance explains.
+bool sees(const CircuitFit& fit, Part part);
 
-bool sees_lead_or_rotation(const CircuitFit& fit);
+/// Whether there is a lead or a delay, or a rotation is seen.
+bool sees_turned_phase(const CircuitFit& fit);
 
 /// Makes the fit's covariance allow for what the noise may be (average_over_noise), for the other circuits
-/// that may be the right one, and for misfit; names those that may be a lead or a rotation that is seen,
-/// and the parts that may be there unseen.
+/// that may be the right one, and for misfit; names those that may be a lead, a delay or a rotation that is
+/// seen, and the parts that may be there unseen.
 ///
-/// Averages the covariance over the other circuits (a further mode, a lean, other leads), each with its own and the square of the step to
-/// it, weighted by its likelihood less a penalty: Schwarz's, ln n for each parameter; of a further mode
-/// two thirds of it, with which the intervals hold beside modes too weak to be seen; and 1 for a
-/// resistance of leads in place of a rotation that is not seen, since leads are always there.
+/// Averages the covariance over the other circuits (a further mode, a lean, other leads), each with its own
+/// and the square of the step to it, weighted by its likelihood less a penalty: Schwarz's, ln n for each
+/// parameter; two thirds of it for a further mode and for rivals, with which the intervals hold beside
+/// modes too weak to be seen and where two parts turn the phase; and 1 for a resistance of leads in place of
+/// a rotation that is not seen, since leads are always there. Rivals may be far from the fit: the intervals
+/// are those of the mixture of them (CircuitFit::alternatives), not of the averaged covariance.
 /// Source: Kass and Raftery, Journal of the American Statistical Association 90 (1995).
 ///
 /// Where the circuit does not describe the sweep, as if as much of the misfit lay along each

@@ -114,13 +114,14 @@ std::string model_of(const CircuitFit& fit) {
   append(lead, {{parts.has(Part::lead_resistance), "resistance"},
                 {parts.has(Part::lead_inductance), "inductance"}});
   return fmt::format(
-      "clamped capacitance{} beside {}{}{}{}{}",
+      "clamped capacitance{} beside {}{}{}{}{}{}",
       parts.has(Part::loss_tangent) ? " with a loss tangent" : "",
       parts.modes == 1 ? std::string("one motional branch")
                        : fmt::format("{} motional branches", parts.modes),
       parts.has(Part::lean) ? ", the first with a resonance that goes with its current" : "",
       lead.empty() ? "" : ", behind a lead of ", fmt::join(lead, " and "),
-      parts.has(Part::rotation) ? ", with a rotation of all phases by one angle" : "");
+      parts.has(Part::rotation) ? ", with a rotation of all phases by one angle" : "",
+      parts.has(Part::delay) ? ", with a delay between the channels" : "");
 }
 
 /// A figure that is open by more than a factor of ten is none.

@@ -39,7 +39,8 @@ struct MechanicalFact {
 /// which the known one is exact.
 ///
 /// The first eight and the last four have intervals that are symmetric in their logarithm: those are
-/// linear in the fitted vector, but for parallel resonance and coupling, which are linearised.
+/// linear in the fitted vector, but for parallel resonance and coupling, which are linearised. Of a fit with
+/// alternatives the interval goes between the quantiles of their mixture.
 /// @throws loop::ComputationError  mass or force factor is not in its range
 std::vector<Estimate> figures(const CircuitFit& fit, const MechanicalFact& fact = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "host_sim/studies/identify/least_squares.hpp"
@@ -14,7 +15,7 @@ namespace {
 Unseen unseen_part(const Sweep& sweep, const CircuitFit& fit, Part part) {
   Parts larger = fit.parts.with(part);
   Circuit circuit = fit.circuit;
-  if (part == Part::lead_resistance && !sees_rotation(fit)) {
+  if (part == Part::lead_resistance && !sees(fit, Part::rotation)) {
     larger = larger.with(Part::rotation, false);
     circuit.rotation_rad = 0.0;
   }
@@ -36,13 +37,14 @@ Unseen unseen_part(const Sweep& sweep, const CircuitFit& fit, Part part) {
 struct Other {
   CircuitFit fit;
   double penalty;  ///< over that of the fit, in −2 ln likelihood
-  bool is_rival;   ///< of a lead or rotation that is seen
+  bool is_rival;   ///< of a lead, delay or rotation that is seen
 };
 
 std::vector<Other> others_of(const Sweep& sweep, const CircuitFit& fit) {
   const auto schwarz_penalty = [&](const CircuitFit& other) {
     return schwarz(other) - other.deviance - (schwarz(fit) - fit.deviance);
   };
+  constexpr double per_element = 2.0 / 3.0;
   std::vector<Other> others;
   for (CircuitFit& each : larger_fits(sweep, fit)) {
     const std::vector<Mode>& modes = each.circuit.modes;
@@ -50,18 +52,23 @@ std::vector<Other> others_of(const Sweep& sweep, const CircuitFit& fit) {
     const bool is_first_kept = !is_in(sweep, modes.back()) ||
                                modes.back().conductance_S < 0.5 * modes.front().conductance_S;
     if (is_mode ? is_first_kept : each.parts.has(Part::lean) && !fit.parts.has(Part::lean)) {
-      constexpr double per_element = 2.0 / 3.0;
       const double penalty = (is_mode ? per_element : 1.0) * schwarz_penalty(each);
       others.push_back({std::move(each), penalty, false});
     }
   }
-  const bool is_turned = sees_lead_or_rotation(fit);
-  for (CircuitFit& each : turned_fits(sweep, fit)) {
+  if (!sweep.has_phase) {
+    return others;
+  }
+  if (!sees_turned_phase(fit)) {
     constexpr double doubt = 1.0;
-    if (is_turned || !(each.parts.has(Part::rotation) || each.parts.has(Part::lead_inductance))) {
-      const double penalty = is_turned ? schwarz_penalty(each) : doubt;
-      others.push_back({std::move(each), penalty, is_turned});
+    if (std::optional<CircuitFit> lead = turned_fit(sweep, fit, {Part::lead_resistance})) {
+      others.push_back({*std::move(lead), doubt, false});
     }
+    return others;
+  }
+  for (CircuitFit& each : turned_fits(sweep, fit)) {
+    const double penalty = per_element * schwarz_penalty(each);
+    others.push_back({std::move(each), penalty, true});
   }
   return others;
 }
@@ -92,6 +99,32 @@ std::vector<double> average(const std::vector<Other>& others, CircuitFit& fit) {
   return weights;
 }
 
+/// The circuits that a mixture is of, where there are rivals: those of some weight and, last, the fit, which
+/// allows for the others that are no rivals.
+std::vector<Alternative> alternatives_of(CircuitFit fit, const std::vector<Other>& others,
+                                         const std::vector<double>& weights) {
+  std::vector<Alternative> all;
+  std::vector<Other> beside;
+  double left = 1.0;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    constexpr double least = 1e-3;
+    if (!others[i].is_rival) {
+      beside.push_back(others[i]);
+      continue;
+    }
+    left -= weights[i];
+    if (weights[i] > least) {
+      all.push_back({others[i].fit.circuit, others[i].fit.covariance, weights[i]});
+    }
+  }
+  if (all.empty() || fit.description.fails()) {
+    return {};
+  }
+  average(beside, fit);
+  all.push_back({std::move(fit.circuit), std::move(fit.covariance), left});
+  return all;
+}
+
 void allow_for_misfit(CircuitFit& fit) {
   if (!fit.description.fails()) {
     return;
@@ -107,15 +140,15 @@ void allow_for_misfit(CircuitFit& fit) {
 
 }  // namespace
 
-bool sees_rotation(const CircuitFit& fit) {
+bool sees(const CircuitFit& fit, Part part) {
   constexpr double many = 3.3;  // one sweep of 1000 has more by chance
-  const Eigen::Index at = index_of(Part::rotation);
-  return fit.parts.has(Part::rotation) &&
-         std::abs(fit.circuit.rotation_rad) > many * std::sqrt(fit.covariance(at, at));
+  const Eigen::Index at = index_of(part);
+  return fit.parts.has(part) &&
+         std::abs(to_vector(fit.circuit)(at)) > many * std::sqrt(fit.covariance(at, at));
 }
 
-bool sees_lead_or_rotation(const CircuitFit& fit) {
-  return fit.parts.has_lead() || sees_rotation(fit);
+bool sees_turned_phase(const CircuitFit& fit) {
+  return fit.parts.has_lead_or_delay() || sees(fit, Part::rotation);
 }
 
 void allow_for_what_is_not_certain(Selection& selected) {
@@ -128,7 +161,9 @@ void allow_for_what_is_not_certain(Selection& selected) {
   }
   std::vector<Other> others = others_of(sweep, fit);
   fit.covariance = over_vector(average_over_noise(fit.at, fit.noise), fit.parts);
+  const CircuitFit alone = fit;
   const std::vector<double> weights = average(others, fit);
+  fit.alternatives = alternatives_of(alone, others, weights);
   for (std::size_t i = 0; i < others.size(); ++i) {
     if (others[i].is_rival) {
       selected.rivals.push_back({std::move(others[i].fit), weights[i]});

@@ -58,6 +58,7 @@ TEST(Circuit, DerivativesAreThoseOfDifferences) {
   circuit.modes.push_back({1e-4, 113.5e3, 500.0});
   circuit.lead = {5.0, 2e-6};
   circuit.rotation_rad = 0.02;
+  circuit.delay_s = 50e-9;
   circuit.lean = 0.3;
   circuit.modes.push_back({3e-4, 115e3, 400.0});
   const Eigen::VectorXd p = to_vector(circuit);
@@ -66,8 +67,9 @@ TEST(Circuit, DerivativesAreThoseOfDifferences) {
   circuit.admittance_S(f, &derivatives);
   ASSERT_EQ(derivatives.size(), p.size());
   for (Eigen::Index i = 0; i < p.size(); ++i) {
-    // Of the inductance in parts of itself.
-    const double step = 1e-6 * std::min(1.0, i == index_of(Part::lead_inductance) ? p(i) : 1.0);
+    // Of inductance and delay in parts of themselves.
+    const bool is_small = i == index_of(Part::lead_inductance) || i == index_of(Part::delay);
+    const double step = 1e-6 * (is_small ? p(i) : 1.0);
     Eigen::VectorXd more = p;
     Eigen::VectorXd less = p;
     more(i) += step;

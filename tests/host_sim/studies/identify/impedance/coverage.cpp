@@ -35,6 +35,7 @@ bool is_told(const Kind& kind, const Selection& selected, const std::vector<Esti
          (kind.trait == Trait::drift && says(open, "Whether the resonance drifted")) ||
          (kind.error == Error::correlated && says(open, "neighbouring readings are correlated")) ||
          (kind.trait == Trait::lead && says(open, "have a series inductance up to")) ||
+         (kind.trait == Trait::lead_delay && says(open, "have a series resistance up to")) ||
          (kind.second == Second::beside && (says(open, "just outside the sweep") ||
                                             says(warnings_of(selected), "just outside the sweep")));
 }

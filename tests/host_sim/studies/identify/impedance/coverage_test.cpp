@@ -18,7 +18,7 @@ namespace {
 class CoverageTest : public testing::TestWithParam<Kind> {};
 
 /// 40 sweeps and 8 parameters each. With 0.95 each, 31 or fewer of 40 hold the truth in one case of
-/// 10000, so that one of the 160 counts does in 2 %. A sweep of which a sentence tells what its
+/// 10000, so that one of the 184 counts does in 2 %. A sweep of which a sentence tells what its
 /// intervals leave out counts as held.
 TEST_P(CoverageTest, IntervalsHoldTheTruthOrASentenceTellsWhatTheyLeaveOut) {
   constexpr int sweeps = 40;

@@ -87,6 +87,13 @@ void add_trait(const Kind& kind, Circuit& circuit, std::mt19937_64& random) {
     case Trait::narrow:
       circuit.rotation_rad = sign * (0.5 + 1.5 * share) / degrees_per_rad;
       break;
+    case Trait::lead_delay:
+      circuit.lead.resistance_ohm = 0.1 * circuit.modes.front().resistance_ohm();
+      [[fallthrough]];
+    case Trait::delay:
+    case Trait::wide_delay:
+      circuit.delay_s = sign * (0.5 + 2.5 * share) / (360.0 * circuit.modes.front().resonance_Hz);
+      break;
     case Trait::lead: {
       const double omega = two_pi * circuit.modes.front().resonance_Hz;
       circuit.lead = {0.1 * circuit.modes.front().resistance_ohm(),
@@ -96,6 +103,22 @@ void add_trait(const Kind& kind, Circuit& circuit, std::mt19937_64& random) {
     default:
       break;
   }
+}
+
+/// Half of the readings between the ends, half from half the resonance to twice it.
+Sweep exact_wide_sweep(const Circuit& circuit, Ends ends, int readings) {
+  const double resonance_Hz = circuit.modes.front().resonance_Hz;
+  Sweep sweep = exact_sweep(circuit, ends.low_Hz, ends.high_Hz, readings / 2);
+  for (const double f :
+       exact_sweep(circuit, 0.5 * resonance_Hz, 2.0 * resonance_Hz, readings / 2).frequency_Hz) {
+    sweep.frequency_Hz.push_back(f);
+  }
+  std::sort(sweep.frequency_Hz.begin(), sweep.frequency_Hz.end());
+  sweep.admittance_S.clear();
+  for (const double f : sweep.frequency_Hz) {
+    sweep.admittance_S.push_back(circuit.admittance_S(f));
+  }
+  return sweep;
 }
 
 void drift(Circuit circuit, double by_Hz, Sweep& sweep) {
@@ -164,7 +187,9 @@ Synthetic synthetic(const Kind& kind, int readings, std::mt19937_64& random) {
   Circuit measured = truth;
   add_second(kind, {low_Hz, high_Hz}, measured, random);
   add_trait(kind, measured, random);
-  Sweep sweep = exact_sweep(measured, low_Hz, high_Hz, readings);
+  Sweep sweep = kind.trait == Trait::wide_delay
+                    ? exact_wide_sweep(measured, {low_Hz, high_Hz}, readings)
+                    : exact_sweep(measured, low_Hz, high_Hz, readings);
   if (kind.trait == Trait::drift) {
     drift(measured, bandwidth_Hz * (0.1 + 0.2 * even(random)), sweep);
   }

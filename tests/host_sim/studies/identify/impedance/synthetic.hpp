@@ -31,6 +31,9 @@ enum class Trait {
   lean,         ///< the resonance falls or rises by 0.05 to 0.5 band widths at the largest current
   phase_error,  ///< every phase is off by 0.5 to 2 degrees
   narrow,       ///< likewise, in a sweep of 3 band widths on either side of the resonance
+  delay,        ///< the voltage is read too late or too early by 0.5 to 3 degrees of the resonance
+  wide_delay,   ///< likewise; half of the readings are from half the resonance to twice it
+  lead_delay,   ///< likewise, behind a resistance of 0.1 R
   lead,         ///< a lead of 0.1 R, whose reactance is up to a hundredth of the capacitance's
   drift,        ///< the resonance falls by 0.1 to 0.3 band widths from first to last reading
 };
