@@ -59,7 +59,7 @@ std::filesystem::path path_of(const ImageOptions& options, const std::string& sc
 
 std::string stack_text(const emulated::StackBound& stack) {
   return stack.unbounded_by.empty() ? fmt::format("{} B", stack.bytes)
-                                    : fmt::format("not known, because of {}", stack.unbounded_by);
+                                    : fmt::format("not known: {}", stack.unbounded_by);
 }
 
 /// What the emulator of the board counts, where there is one.

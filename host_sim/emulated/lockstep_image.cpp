@@ -56,18 +56,24 @@ Drive LockstepImage::ask(const Sample& sample) {
 
 /// Of an answer, behind the greetings that were sent before the board heard of a frame.
 std::uint8_t LockstepImage::first_byte() {
+  const auto end = std::chrono::steady_clock::now() + patience_;
   std::uint8_t byte = 0;
-  do {
+  receive(&byte, 1);
+  while (greeted_ && period_ == 0 && byte == lockstep::greeting) {
+    if (std::chrono::steady_clock::now() > end) {
+      fail(fmt::format("greets, but for {} ms has answered no frame: does it receive?",
+                       patience_.count()));
+    }
     receive(&byte, 1);
-  } while (greeted_ && period_ == 0 && byte == lockstep::greeting);
+  }
   return byte;
 }
 
 void SerialImage::receive(std::uint8_t* bytes, std::size_t size) {
   while (size > 0) {
-    const std::size_t count = port_.receive(bytes, size, patience_);
+    const std::size_t count = port_.receive(bytes, size, patience());
     if (count == 0) {
-      fail(fmt::format("is silent for {} ms{}", patience_.count(),
+      fail(fmt::format("is silent for {} ms{}", patience().count(),
                        period() > 0 ? ""
                                     : "; reset the board, which must hold what image --lockstep "
                                       "builds of this scene"));
@@ -84,7 +90,7 @@ void SerialImage::fail(const std::string& what) const {
 
 ImageProcess::ImageProcess(const std::vector<std::string>& command,
                            std::chrono::milliseconds patience)
-    : patience_(patience),
+    : LockstepImage(patience),
       samples_(process::make_pipe()),
       drives_(process::make_pipe()),
       // In memory: a pipe that nobody empties would stop a talkative emulator.
@@ -138,9 +144,9 @@ void ImageProcess::receive(std::uint8_t* bytes, std::size_t size) {
 }
 
 void ImageProcess::wait_for_answer() {
-  if (!process::wait_for_input(drives_.read_end.number(), patience_)) {
+  if (!process::wait_for_input(drives_.read_end.number(), patience())) {
     child_->end();
-    fail(fmt::format("hung for {} ms and was ended", patience_.count()));
+    fail(fmt::format("hung for {} ms and was ended", patience().count()));
   }
 }
 

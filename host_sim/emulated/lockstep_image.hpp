@@ -26,7 +26,8 @@ class ImageError : public std::runtime_error {
 /// The host's end of hal/lockstep/frame.hpp, over any bytes each way.
 class LockstepImage {
  public:
-  LockstepImage() = default;
+  /// @param patience  an answer that takes longer never comes
+  explicit LockstepImage(std::chrono::milliseconds patience) : patience_(patience) {}
   LockstepImage(const LockstepImage&) = delete;
   LockstepImage& operator=(const LockstepImage&) = delete;
   virtual ~LockstepImage() = default;
@@ -60,12 +61,14 @@ class LockstepImage {
 
   /// Carrier period of the next exchange.
   std::uint32_t period() const { return period_; }
+  std::chrono::milliseconds patience() const { return patience_; }
 
  private:
   template <class Drive, class Sample>
   Drive ask(const Sample& sample);
   std::uint8_t first_byte();
 
+  std::chrono::milliseconds patience_;
   std::uint32_t period_ = 0;
   bool greeted_ = false;
   hal::lockstep::AnswerCost cost_{};
@@ -77,7 +80,7 @@ class SerialImage final : public LockstepImage {
   /// @param port      outlives this
   /// @param patience  an answer that takes longer never comes
   SerialImage(process::SerialPort& port, std::chrono::milliseconds patience)
-      : port_(port), patience_(patience) {}
+      : LockstepImage(patience), port_(port) {}
 
   void send(const std::uint8_t* bytes, std::size_t size) override { port_.send(bytes, size); }
 
@@ -86,7 +89,6 @@ class SerialImage final : public LockstepImage {
   [[noreturn]] void fail(const std::string& what) const override;
 
   process::SerialPort& port_;
-  std::chrono::milliseconds patience_;
 };
 
 /// Runs an emulator with its standard input and output connected to this object. The emulator ends
@@ -116,7 +118,6 @@ class ImageProcess final : public LockstepImage {
   [[noreturn]] void fail(const std::string& what) const override;
   std::string last_words() const;
 
-  std::chrono::milliseconds patience_;
   process::Pipe samples_;
   process::Pipe drives_;
   process::Descriptor complaints_;

@@ -17,10 +17,20 @@ namespace sonoglide::process {
 
 using std::chrono_literals::operator""ms;
 
-SerialPort::SerialPort(const std::string& device)
-    : device_(device),
-      // Without waiting for a modem's carrier.
-      line_(open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+namespace {
+
+/// Without waiting for a modem's carrier. No file has a name with a byte 0, at which the system would end it.
+int opened(const std::string& device) {
+  if (device.find('\0') != std::string::npos) {
+    errno = ENOENT;
+    return -1;
+  }
+  return open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+}
+
+}  // namespace
+
+SerialPort::SerialPort(const std::string& device) : device_(device), line_(opened(device)) {
   if (line_.number() < 0) {
     fail(std::strerror(errno));
   }

@@ -16,7 +16,6 @@
 #include "hal/reset_cause.hpp"
 #include "host_sim/output/number.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/process/regular_expression.hpp"
 
 namespace sonoglide::unit {
 
@@ -55,8 +54,12 @@ std::string decimal(std::uint32_t value, int places) {
 }
 
 bool is_number(const std::string& text) {
-  static const process::RegularExpression number("-?([0-9]+\\.?[0-9]*|\\.[0-9]+)");
-  return !number.match(text).empty();
+  const std::size_t sign = text.rfind('-', 0) == 0 ? 1 : 0;
+  const auto points = std::count(text.begin(), text.end(), '.');
+  const auto digits = std::count_if(text.begin(), text.end(),
+                                    [](char each) { return '0' <= each && each <= '9'; });
+  return digits > 0 && points <= 1 &&
+         sign + static_cast<std::size_t>(digits + points) == text.size();
 }
 
 double number_of(const std::string& text) {

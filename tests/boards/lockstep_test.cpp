@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
@@ -30,6 +32,7 @@
 namespace sonoglide::emulated::lockstep_test {
 namespace {
 
+using std::chrono_literals::operator""ms;
 using std::chrono_literals::operator""s;
 
 constexpr int shut_down = static_cast<int>(hal::lockstep::ExitCode::shut_down);
@@ -290,6 +293,34 @@ TEST_P(BoardAtPort, RunsASceneAsPilDoesAtAPort) {
   EXPECT_TRUE(result.image->workstation->same);
   EXPECT_EQ(result.image->board, device.device());
   EXPECT_FALSE(result.image->memory);
+}
+
+TEST(DeafBoard, IsToldAsOneThatOnlyGreets) {
+  const unit::PseudoTerminal device;
+  process::SerialPort port(device.device());
+  const unit::TerminalLink board(device);
+  std::atomic<bool> told = false;
+  std::thread greetings([&] {
+    while (!told && board.send(hal::lockstep::greeting)) {
+      std::this_thread::sleep_for(1ms);
+    }
+  });
+  emulated::SerialImage image(port, 100ms);
+  image.await_greeting();
+  EXPECT_THROW(
+      {
+        try {
+          image.exchange(hal::Sample{});
+        } catch (const ImageError& error) {
+          EXPECT_NE(std::string(error.what()).find("greets, but for 100 ms has answered no frame"),
+                    std::string::npos)
+              << error.what();
+          throw;
+        }
+      },
+      ImageError);
+  told = true;
+  greetings.join();
 }
 
 INSTANTIATE_TEST_SUITE_P(Boards, SerialImage, testing::ValuesIn(emulated::tested_boards()),

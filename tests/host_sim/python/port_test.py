@@ -145,6 +145,11 @@ def test_what_is_no_unit_is_named(device):
         sonoglide.Port(device)
 
 
+def test_a_name_does_not_end_at_a_byte_0():
+    with pytest.raises(OSError, match="No such file"):
+        sonoglide.Port("/dev/null\0")
+
+
 def test_what_cannot_be_commissioned_is_named(scene):
     with pytest.raises(OSError, match="no_such_device"):
         sonoglide.commission("no_such_device", scene("target_step"))

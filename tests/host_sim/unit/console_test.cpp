@@ -610,8 +610,9 @@ TEST_F(ConsoleTest, KnowsWhatIsNoNumber) {
               "target: \"" + text + "\" is no number; allowed is 0 to 1");
   }
   EXPECT_EQ(line_of("target 99999999999999999999"), "target: allowed is 0 to 1");
+  EXPECT_EQ(line_of("target " + std::string(100000, '1')), "target: allowed is 0 to 1");
   EXPECT_EQ(line_of("target -0.000001"), "target: allowed is 0 to 1");
-  EXPECT_EQ(console_.refused(), 12U);
+  EXPECT_EQ(console_.refused(), 13U);
   EXPECT_EQ(line_of("target -0").find("state off, target 0,"), 0U);
   EXPECT_EQ(line_of("target 0.50000000").find("state off, target 0.5,"), 0U);
   EXPECT_EQ(line_of("set stuck_periods 20.0"), "stuck_periods 20, saved");

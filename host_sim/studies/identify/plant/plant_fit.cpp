@@ -180,7 +180,13 @@ FittedProblem fitted(const configure::Experiment& nominal, const std::vector<Str
   return free;
 }
 
-void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) {
+/// Of the undriven friction, below which the rounding of a record is no noise: the fit may then be of another plant.
+constexpr double fewest_codes = 40.0;
+
+/// @param undriven  mean reading, over full scale
+void add_warnings(const LeastSquaresFit& fit, double undriven, const Expected& expected,
+                  PlantFit& found) {
+  const double codes = std::abs(undriven) / expected.quantum();
   Identification& told = found.identification;
   const double rms = rms_of(fit);
   told.residual_rms = rms / std::abs(undriven);
@@ -191,9 +197,15 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, PlantFit& found) 
       {{rms > much * found.expected_rms,
         fmt::format(
             "The residuals are {:.3g} of the undriven friction, {:.3g} times what the scene's "
-            "[sensor] makes them: the sensor is noisier than stated, or the plant is not what the "
-            "scene's laws describe, and then the intervals do not hold.",
+            "[sensor] makes them: the sensor is noisier than stated, the plant is not what the "
+            "scene's laws describe, or the fit has not found it. The intervals do not hold then.",
             told.residual_rms, rms / found.expected_rms)},
+       {codes < fewest_codes && expected.noise < expected.rounding,
+        fmt::format(
+            "The converter shows the undriven friction in {:.0f} codes. What it rounds is no noise then, "
+            "and spring and damper may be off by far more than their intervals. {:.0f} codes, or noise of "
+            "one code, would do.",
+            codes, fewest_codes)},
        {!fit.converged, "The fit has not converged: no value is sure."}});
 }
 
@@ -210,11 +222,15 @@ PossibleSprings hidden_springs(const PlantProblem& problem, const SpringScan& sc
   const std::string& key = problem.unknowns().front().key;
   if (springs.is_cut) {
     fit = problem.polished(problem.at(springs.nearest), 1);
+    const std::string possible =
+        springs.most < 1.01 * springs.least
+            ? fmt::format("near {:.3g} times the scene's", springs.least)
+            : fmt::format("from {:.3g} to {:.3g} times the scene's", springs.least, springs.most);
     told.cannot_tell.push_back(fmt::format(
-        "{}: noise hides the natural mode, and springs from {:.3g} to {:.3g} times the scene's or beyond may give "
-        "these readings. commissioned.toml has the scene's, and the steps on the plant that was found are those with "
-        "it. Readings with less noise would tell.",
-        key, springs.least, springs.most));
+        "{}: the natural mode does not stand out of noise and rounding, and springs {} or beyond may give these "
+        "readings. commissioned.toml has the scene's, and the steps on the plant that was found are those with it. "
+        "Readings with less noise, or with more bits, may tell.",
+        key, possible));
   } else {
     told.cannot_tell.push_back(fmt::format(
         "{}: the natural mode does not stand out of the noise, so springs from {:.2g} to {:.2g} times the scene's were "
@@ -248,7 +264,7 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
   const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
   add_estimates(problem, fit, springs, deviations, found);
   add_bias(*nominal.nominal.drive, found);
-  add_warnings(fit, readings(stretches.front()).mean(), found);
+  add_warnings(fit, readings(stretches.front()).mean(), expected, found);
   Eigen::Index first = 0;
   for (const Stretch& each : stretches) {
     const auto n = static_cast<Eigen::Index>(each.steps.size());

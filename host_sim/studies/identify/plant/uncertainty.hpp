@@ -18,6 +18,7 @@ struct Expected {
   double rounding;
 
   double deviation() const { return std::hypot(noise, rounding); }
+  double quantum() const { return std::sqrt(12.0) * rounding; }  ///< one code
 };
 Expected expected(const scene::Sensor& sensor);
 

@@ -155,6 +155,21 @@ TEST(IdentifiedPlants, WhatNoiseHidesIsNotToldTightly) {
       "away may fit too, as on the other side of the carrier frequency.");
 }
 
+/// Of so few codes the rounding is no noise: a spring 14 % off came with an interval of 0.1 %.
+TEST(IdentifiedPlants, AConverterThatIsTooCoarseIsNamed) {
+  for (const char* bits : {"5", "6", "8"}) {
+    const configure::Experiment scene =
+        experiment::read_file(SCENES "target_step.toml", {std::string("sensor.adc_bits=") + bits});
+    const PlantStudy found =
+        study(scene, test::recorded(scene, targets(scene.nominal), 1024, 32), [](double) {});
+    const auto& warnings = found.fit.identification.warnings;
+    const bool named = std::any_of(warnings.begin(), warnings.end(), [](const std::string& each) {
+      return each.find("The converter shows the undriven friction in") == 0;
+    });
+    EXPECT_EQ(named, std::string(bits) != "8") << bits;
+  }
+}
+
 /// With ten times the noise springs 50 % away fit as well: none is told.
 TEST(IdentifiedPlants, ASpringThatNoiseLeavesOpenStaysThatOfTheScene) {
   const PlantStudy found = found_in_noise({"sensor.seed=4", "sensor.force_noise_N=1e-3"});
@@ -164,7 +179,9 @@ TEST(IdentifiedPlants, ASpringThatNoiseLeavesOpenStaysThatOfTheScene) {
   EXPECT_TRUE(found.fit.changed.empty());
   const std::string& open = found.fit.identification.cannot_tell.front();
   EXPECT_EQ(
-      open.find("plant.stiffness_N_per_m: noise hides the natural mode, and springs from 0.6"), 0U)
+      open.find(
+          "plant.stiffness_N_per_m: the natural mode does not stand out of noise and rounding, and springs from 0.6"),
+      0U)
       << open;
   EXPECT_NE(found.scene.find("# The readings cannot tell: " + open), std::string::npos);
   EXPECT_EQ(experiment::read_text(found.scene, "commissioned.toml").nominal.plant.stiffness_N_per_m,
