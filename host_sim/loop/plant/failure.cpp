@@ -139,8 +139,7 @@ std::string too_many_steps(const scene::Scene& scene, const plant::Cost& cost) {
       return need + of_sliding(rates, CarrierGrid(scene).period_s());
     }
     const bool second_order = scene.solver.method == scene::method_of<scene::solvers::Strang>;
-    if (!second_order &&
-        scene::vibration_of(scene.friction.law) == friction::Vibration::transverse) {
+    if (!second_order && scene::vibration_of(scene.friction.law) == friction::Vibration::across) {
       return need +
              "the contact comes to rest, with sliding and vibration at 0 together, which "
              "friction.law = \"transverse_coulomb\" does not model";

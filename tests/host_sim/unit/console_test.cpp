@@ -616,7 +616,7 @@ TEST_F(ConsoleTest, KnowsWhatIsNoNumber) {
   EXPECT_EQ(line_of("target -0").find("state off, target 0,"), 0U);
   EXPECT_EQ(line_of("target 0.50000000").find("state off, target 0.5,"), 0U);
   EXPECT_EQ(line_of("set stuck_periods 20.0"), "stuck_periods 20, saved");
-  EXPECT_EQ(console_.refused(), 12U);
+  EXPECT_EQ(console_.refused(), 13U);
 }
 
 /// Its hardware holds the drive off.
