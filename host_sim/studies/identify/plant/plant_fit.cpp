@@ -180,13 +180,9 @@ FittedProblem fitted(const configure::Experiment& nominal, const std::vector<Str
   return free;
 }
 
-/// Of the undriven friction, below which the rounding of a record is no noise: the fit may then be of another plant.
-constexpr double fewest_codes = 40.0;
-
 /// @param undriven  mean reading, over full scale
 void add_warnings(const LeastSquaresFit& fit, double undriven, const Expected& expected,
                   PlantFit& found) {
-  const double codes = std::abs(undriven) / expected.quantum();
   Identification& told = found.identification;
   const double rms = rms_of(fit);
   told.residual_rms = rms / std::abs(undriven);
@@ -200,12 +196,11 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, const Expected& e
             "[sensor] makes them: the sensor is noisier than stated, the plant is not what the "
             "scene's laws describe, or the fit has not found it. The intervals do not hold then.",
             told.residual_rms, rms / found.expected_rms)},
-       {codes < fewest_codes && expected.noise < expected.rounding,
+       {expected.rounds_coarsely(undriven),
         fmt::format(
-            "The converter shows the undriven friction in {:.0f} codes. What it rounds is no noise then, "
-            "and spring and damper may be off by far more than their intervals. {:.0f} codes, or noise of "
-            "one code, would do.",
-            codes, fewest_codes)},
+            "The converter shows the undriven friction in {:.0f} codes. What it rounds is no noise then, and spring "
+            "and damper may be off by far more than their intervals. {:.0f} codes, or noise of one code, would do.",
+            std::abs(undriven) / expected.quantum(), Expected::fewest_codes)},
        {!fit.converged, "The fit has not converged: no value is sure."}});
 }
 

@@ -19,6 +19,13 @@ struct Expected {
 
   double deviation() const { return std::hypot(noise, rounding); }
   double quantum() const { return std::sqrt(12.0) * rounding; }  ///< one code
+  /// Whether a reading is so few codes, which no noise stirs, that their rounding is no noise: the fit may then be
+  /// of another plant.
+  bool rounds_coarsely(double reading) const {
+    return noise < rounding && std::abs(reading) < fewest_codes * quantum();
+  }
+
+  static constexpr double fewest_codes = 40.0;
 };
 Expected expected(const scene::Sensor& sensor);
 
