@@ -117,6 +117,17 @@ void add_bias(const scene::Drive& stated, PlantFit& found) {
   }
 }
 
+/// Spring and damper show in swings of a code or two.
+void keep_stated_swings(PlantFit& found) {
+  auto& changed = found.changed;
+  changed.erase(std::remove_if(changed.begin(), changed.end(),
+                               [](const auto& each) {
+                                 return each.first == "plant.stiffness_N_per_m" ||
+                                        each.first == "plant.damping_N_s_per_m";
+                               }),
+                changed.end());
+}
+
 double rms_of(const LeastSquaresFit& fit) {
   return std::sqrt(fit.sum_of_squares / static_cast<double>(fit.residuals.size()));
 }
@@ -199,7 +210,8 @@ void add_warnings(const LeastSquaresFit& fit, double undriven, const Expected& e
        {expected.rounds_coarsely(undriven),
         fmt::format(
             "The converter shows the undriven friction in {:.0f} codes. What it rounds is no noise then, and spring "
-            "and damper may be off by far more than their intervals. {:.0f} codes, or noise of one code, would do.",
+            "and damper may be off by far more than their intervals: commissioned.toml has those of the scene. {:.0f} "
+            "codes, or noise of one code, would do.",
             std::abs(undriven) / expected.quantum(), Expected::fewest_codes)},
        {!fit.converged, "The fit has not converged: no value is sure."}});
 }
@@ -259,7 +271,11 @@ PlantFit fit_plant(const configure::Experiment& nominal, const std::vector<Stret
   const Deviations deviations = plant::deviations(fit, problem.slopes(fit), stretches, expected);
   add_estimates(problem, fit, springs, deviations, found);
   add_bias(*nominal.nominal.drive, found);
-  add_warnings(fit, readings(stretches.front()).mean(), expected, found);
+  const double undriven = readings(stretches.front()).mean();
+  if (expected.rounds_coarsely(undriven)) {
+    keep_stated_swings(found);
+  }
+  add_warnings(fit, undriven, expected, found);
   Eigen::Index first = 0;
   for (const Stretch& each : stretches) {
     const auto n = static_cast<Eigen::Index>(each.steps.size());

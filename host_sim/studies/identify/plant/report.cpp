@@ -53,7 +53,7 @@ output::Chart chart(const PlantStudy& study, std::size_t index) {
 
 std::string change_sentence(const PlantStudy& study) {
   if (study.fit.changed.empty()) {
-    return "No interval excludes a value of the scene: commissioned.toml has the same.";
+    return "commissioned.toml has every value of the scene: the readings are reason to change none.";
   }
   std::string words =
       "The intervals do not have these values of the scene, and commissioned.toml has others:";
