@@ -56,8 +56,8 @@ std::string decimal(std::uint32_t value, int places) {
 bool is_number(const std::string& text) {
   const std::size_t sign = text.rfind('-', 0) == 0 ? 1 : 0;
   const auto points = std::count(text.begin(), text.end(), '.');
-  const auto digits = std::count_if(text.begin(), text.end(),
-                                    [](char each) { return '0' <= each && each <= '9'; });
+  const auto digits =
+      std::count_if(text.begin(), text.end(), [](char each) { return '0' <= each && each <= '9'; });
   return digits > 0 && points <= 1 &&
          sign + static_cast<std::size_t>(digits + points) == text.size();
 }
