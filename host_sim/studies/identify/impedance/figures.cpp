@@ -78,7 +78,8 @@ struct Belief {
   double weight;  ///< its probability
 };
 
-/// Where the mixture of Gaussians has so much probability below.
+/// Where the mixture of Gaussians has so much probability below. By bisection, because the distribution jumps at the
+/// 0 of circuits without the part.
 double quantile(const std::vector<Belief>& all, double probability) {
   constexpr double far = 10.0;
   double low = all.front().centre;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -166,6 +167,21 @@ TEST(IdentifiedPlants, AConverterThatIsTooCoarseIsNoSourceOfNoise) {
   EXPECT_FALSE(is_coarse(8));
   sensor.force_noise_N = sensor.force_full_scale_N * std::ldexp(1.0, -5);
   EXPECT_FALSE(is_coarse(5)) << "noise stirs the codes";
+}
+
+TEST(IdentifiedPlants, AConverterThatIsTooCoarseChangesNoSpring) {
+  const configure::Experiment scene =
+      experiment::read_file(SCENES "target_step.toml", {"sensor.adc_bits=5"});
+  const PlantFit fit =
+      study(scene, test::recorded(scene, targets(scene.nominal), 1024, 32), [](double) {}).fit;
+  const auto& warnings = fit.identification.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& each) {
+    return each.find("The converter shows the undriven friction in 8 codes") == 0;
+  }));
+  for (const auto& [key, value] : fit.changed) {
+    EXPECT_NE(key, "plant.stiffness_N_per_m") << value;
+    EXPECT_NE(key, "plant.damping_N_s_per_m") << value;
+  }
 }
 
 /// With ten times the noise springs 50 % away fit as well: none is told.
