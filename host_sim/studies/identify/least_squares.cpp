@@ -1,7 +1,6 @@
 #include "host_sim/studies/identify/least_squares.hpp"
 
 #include <Eigen/SVD>
-#include <boost/math/distributions/students_t.hpp>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <cmath>
@@ -77,11 +76,6 @@ Eigen::MatrixXd inverse_normal_matrix(const Eigen::MatrixXd& jacobian) {
 Eigen::MatrixXd correlations(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd inverse = covariance.diagonal().cwiseSqrt().cwiseInverse();
   return inverse.asDiagonal() * covariance * inverse.asDiagonal();
-}
-
-double student_t_95(double degrees_of_freedom) {
-  constexpr double upper = 0.975;
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), upper);
 }
 
 double corrected_akaike(double sum_of_squares, Eigen::Index residuals, Eigen::Index parameters) {

@@ -43,10 +43,6 @@ Eigen::MatrixXd inverse_normal_matrix(const Eigen::MatrixXd& jacobian);
 /// Correlations of a covariance; not a number where a variance is not finite.
 Eigen::MatrixXd correlations(const Eigen::MatrixXd& covariance);
 
-/// The t for which a Student variable of so many degrees of freedom is within ±t in 95 % of cases.
-/// @param degrees_of_freedom  > 0, need not be whole
-double student_t_95(double degrees_of_freedom);
-
 /// Akaike's criterion corrected for small samples, for Gaussian residuals of unknown variance:
 /// n ln(S/n) + 2 k + 2 k (k + 1)/(n − k − 1), k = parameters + 1. Infinite where n − k − 1 <= 0.
 /// Source: Hurvich and Tsai, Biometrika 76 (1989).

@@ -1,6 +1,5 @@
 #include "host_sim/studies/identify/friction/comparison.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
@@ -8,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+
+#include "host_sim/studies/identify/distributions.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
@@ -27,7 +28,7 @@ class Profile {
   Profile(const LawProblem& problem, const Eigen::VectorXd& best,
           const std::vector<Scatter>& scatters, const std::vector<double>& probabilities)
       : problem_(problem),
-        student_(static_cast<double>(problem.readings() - problem.parameters())) {
+        freedom_(static_cast<double>(problem.readings() - problem.parameters())) {
     constexpr double negligible = 0.02;
     double total = 0.0;
     for (std::size_t i = 0; i < probabilities.size(); ++i) {
@@ -53,10 +54,10 @@ class Profile {
   double t_at(Eigen::Index parameter, double log) {
     double below = 0.0;
     for (Branch& each : branches_) {
-      below += each.probability * boost::math::cdf(student_, t_at(each, parameter, log));
+      below += each.probability * student_t_probability(freedom_, t_at(each, parameter, log));
     }
     constexpr double least = 1e-12;
-    return boost::math::quantile(student_, std::clamp(below, least, 1.0 - least));
+    return student_t_quantile(freedom_, std::clamp(below, least, 1.0 - least));
   }
 
   double t_at(Branch& branch, Eigen::Index parameter, double log) const {
@@ -64,7 +65,7 @@ class Profile {
     start(parameter) = log;
     const LawProblem::Solution solution = problem_.solve(*branch.scatter, start, parameter);
     branch.last = solution.logs;
-    const double variance = std::max({branch.best.sum_of_squares / student_.degrees_of_freedom(),
+    const double variance = std::max({branch.best.sum_of_squares / freedom_,
                                       problem_.stated_variance(), problem_.least_variance()});
     const double more = std::max(0.0, solution.sum_of_squares - branch.best.sum_of_squares);
     constexpr double most = 1e9;
@@ -77,7 +78,7 @@ class Profile {
     for (Branch& each : branches_) {
       each.last = each.best.logs;
     }
-    const double wanted = boost::math::quantile(student_, 0.975);
+    const double wanted = student_t_95(freedom_);
     const auto missing = [&](double log) {
       constexpr double accuracy = 2e-3;
       const double value = side * t_at(parameter, log) - wanted;
@@ -111,7 +112,7 @@ class Profile {
   }
 
   const LawProblem& problem_;
-  boost::math::students_t student_;
+  double freedom_;  ///< degrees of it
   std::vector<Branch> branches_;
 };
 

@@ -1,14 +1,13 @@
 #include "host_sim/studies/identify/friction/comparison.hpp"
 
 #include <fmt/format.h>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "host_sim/studies/identify/distributions.hpp"
 #include "host_sim/studies/identify/friction/law_problem.hpp"
-#include "host_sim/studies/identify/least_squares.hpp"
 
 namespace sonoglide::identify::friction {
 namespace {
@@ -35,9 +34,7 @@ double chi_square_probability(const Readings& readings, const LawFit& fit) {
     sum += part * part;
   }
   constexpr double most = 1e6;
-  return sum < most * freedom
-             ? boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), sum))
-             : 0.0;
+  return sum < most * freedom ? chi_squared_above(freedom, sum) : 0.0;
 }
 
 /// Part of the residuals' variance that is misfit; 0 where none is more likely than some.

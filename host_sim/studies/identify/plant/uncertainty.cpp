@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host_sim/studies/identify/distributions.hpp"
+
 namespace sonoglide::identify::plant {
 namespace {
 

@@ -46,12 +46,5 @@ TEST(LeastSquares, ADirectionThatNothingFeelsHasNoBound) {
   EXPECT_TRUE(std::isfinite(covariance(2, 2)));
 }
 
-/// Student's table.
-TEST(LeastSquares, HasTheQuantilesOfStudent) {
-  EXPECT_NEAR(student_t_95(1.0), 12.706, 5e-4);
-  EXPECT_NEAR(student_t_95(10.0), 2.228, 5e-4);
-  EXPECT_NEAR(student_t_95(1e6), 1.96, 5e-4);
-}
-
 }  // namespace
 }  // namespace sonoglide::identify
