@@ -183,10 +183,13 @@ class Terminal {
 
  private:
   template <class Condition>
-  static void wait_for(const Condition& condition) {
+  void wait_for(const Condition& condition) const {
     // A busy machine may keep an emulator waiting for minutes.
     const auto end = std::chrono::steady_clock::now() + 600s;
     while (!condition()) {
+      if (relay_.ended() && !condition()) {
+        throw std::runtime_error("the emulator has ended");
+      }
       if (end < std::chrono::steady_clock::now()) {
         throw std::runtime_error("the emulator hangs");
       }
