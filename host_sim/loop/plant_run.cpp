@@ -81,6 +81,8 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   const int parts = has_corner ? 2 : drive_.parts();
   const int pieces = std::lcm(parts, force_.intervals());
   EnergyBalance total;
+  const EnergyBalance window_before = result_.window;
+  load_slides_ = true;
   meter_.begin_period();
   force_.begin_period();
   double from_s = 0.0;
@@ -94,6 +96,12 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
       force_.take(total, plant_->state().friction_force_N);
     }
     from_s = until_s;
+  }
+  if (!load_slides_) {
+    total.resistance_impulse_N_s = 0.0;
+    total.undriven_s = 0.0;
+    result_.window.resistance_impulse_N_s = window_before.resistance_impulse_N_s;
+    result_.window.undriven_s = window_before.undriven_s;
   }
   result_.whole.append(total);
   note_peaks(end_s, total);
@@ -201,6 +209,8 @@ EnergyBalance PlantRun::stretch(double begin_s, double duration_s, double drive_
     fail(plant::Error::too_many_steps, out.time_s);
   }
   undriven_.complete(stretch, energy);
+  // However many stretches a carrier period is cut into, one in which the load turns has no ratio.
+  load_slides_ = load_slides_ && !(scene_.load && scene_.drive && energy.undriven_s == 0.0);
   energy.normal_impulse_N_s =
       energy.load_s *
       configure::contact_at(scene_.friction, begin_s + 0.5 * duration_s).normal_force_N;

@@ -82,7 +82,8 @@ class PlantRun {
   double given_velocity_m_per_s_;  ///< of the sliding, or of the pulled end of a load's spring
   double pulled_m_ = 0.0;          ///< its integral since the run began
   double added_load_force_N_ = 0.0;
-  PeriodDrive drive_;  ///< of the last period
+  bool load_slides_ = true;  ///< one way in all of the last period; true without a load or drive
+  PeriodDrive drive_;        ///< of the last period
   ForceSampler force_;
   std::vector<double> cuts_s_;  ///< times inside carrier periods at which a stretch must end
   std::size_t next_cut_ = 0;

@@ -48,6 +48,13 @@ def compile_sketch(*folders):
         "-o", str(SCRATCH / "sketch.o"))
 
 
+def missing_includes(folder):
+    """What headers include that is not there: a sketch may include any of them."""
+    return {f"{header.relative_to(folder)}: {name}" for header in folder.rglob("*.hpp")
+            for name in re.findall(r'^#include "(.*)"$', header.read_text(), re.MULTILINE)
+            if not (folder / name).is_file()}
+
+
 class PlatformIO(unittest.TestCase):
     manifest = json.loads((SOURCES / "library.json").read_text())
 
@@ -78,6 +85,7 @@ class PlatformIO(unittest.TestCase):
         folders = [package / build["includeDir"], *(package / flag.removeprefix("-I ") for flag in build["flags"])]
         self.assertTrue(any((folder / self.manifest["headers"]).is_file() for folder in folders))
         compile_sketch(*folders)
+        self.assertEqual(missing_includes(package), set())
 
 
 class Arduino(unittest.TestCase):
@@ -102,6 +110,7 @@ class Arduino(unittest.TestCase):
         self.assertEqual({f.suffix for f in (library / "src").rglob("*.*")}, {".h", ".hpp"})
         self.assertTrue((library / "library.properties").is_file())
         compile_sketch(library / "src")
+        self.assertEqual(missing_includes(library / "src"), set())
 
     def test_a_folder_that_is_there_stays(self):
         folder = fresh("arduino_there")

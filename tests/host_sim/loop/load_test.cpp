@@ -155,6 +155,27 @@ TEST(LoadSceneTest, GoesTheDistanceOfALoadThatTurns) {
   }
 }
 
+/// A carrier period in which a load turns has no friction ratio, into however many stretches it is cut.
+TEST(LoadSceneTest, LeavesOutTheWholePeriodOfATurn) {
+  scene::Load load = moving(0.01, 0.003);
+  load.force_profile_N = {{0.0, -0.4}, {1.0, -0.4}};
+  scene::Scene scene = with_load(table_1(), load);
+  scene.drive->force_amplitude_N = 400.0;
+  scene.run.duration_s = 12.0 * period_s;
+  scene.run.window_start_s = 0.0;
+  const auto ratio = [](const scene::Scene& cut) {
+    const RunResult result = run(cut);
+    EXPECT_EQ(result.window.undriven_s, result.whole.undriven_s);
+    return power_ratios(cut, result.window).friction_ratio;
+  };
+  const double expected = ratio(scene);
+  EXPECT_TRUE(std::isfinite(expected));
+  for (int row = 1; row < 20; ++row) {
+    scene.load->force_profile_N = {{0.0, -0.4}, {row * 0.5 * period_s, -0.4}, {1.0, -0.4}};
+    EXPECT_NEAR(ratio(scene), expected, 1e-9) << row;
+  }
+}
+
 TEST(LoadSceneTest, BothSolversAgree) {
   scene::Scene scene = with_load(table_1(), pulled(0.05, table_1_speed_m_per_s()));
   const RunResult taylor = run(scene);
