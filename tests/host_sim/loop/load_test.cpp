@@ -165,7 +165,7 @@ TEST(LoadSceneTest, LeavesOutTheWholePeriodOfATurn) {
   scene.run.window_start_s = 0.0;
   const auto ratio = [](const scene::Scene& cut) {
     const RunResult result = run(cut);
-    EXPECT_EQ(result.window.undriven_s, result.whole.undriven_s);
+    EXPECT_DOUBLE_EQ(result.window.undriven_s, result.whole.undriven_s);
     return power_ratios(cut, result.window).friction_ratio;
   };
   const double expected = ratio(scene);

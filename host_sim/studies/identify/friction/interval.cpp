@@ -112,7 +112,7 @@ class Profile {
   }
 
   const LawProblem& problem_;
-  double freedom_;  ///< degrees of it
+  double freedom_;  ///< degrees of freedom
   std::vector<Branch> branches_;
 };
 

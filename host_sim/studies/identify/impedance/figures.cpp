@@ -7,7 +7,6 @@
 
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/studies/identify/distributions.hpp"
-#include "host_sim/studies/identify/least_squares.hpp"
 
 namespace sonoglide::identify::impedance {
 namespace {
