@@ -81,7 +81,8 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   const int parts = has_corner ? 2 : drive_.parts();
   const int pieces = std::lcm(parts, force_.intervals());
   EnergyBalance total;
-  const EnergyBalance window_before = result_.window;
+  const double window_resistance_N_s = result_.window.resistance_impulse_N_s;
+  const double window_undriven_s = result_.window.undriven_s;
   load_slides_ = true;
   meter_.begin_period();
   force_.begin_period();
@@ -100,8 +101,8 @@ EnergyBalance PlantRun::advance(double amplitude_N, double bias_N) {
   if (!load_slides_) {
     total.resistance_impulse_N_s = 0.0;
     total.undriven_s = 0.0;
-    result_.window.resistance_impulse_N_s = window_before.resistance_impulse_N_s;
-    result_.window.undriven_s = window_before.undriven_s;
+    result_.window.resistance_impulse_N_s = window_resistance_N_s;
+    result_.window.undriven_s = window_undriven_s;
   }
   result_.whole.append(total);
   note_peaks(end_s, total);
