@@ -84,7 +84,7 @@ Location Document::place_of(std::string_view dotted_key) const {
 
 void Document::collect() {
   for (const auto& [key, value] : in_file_order(root_)) {
-    const std::string name(key->str());
+    const std::string name = name_of(*key);
     const Location place = located(file_, key->source());
     if (find_table(name) == nullptr) {
       throw SceneError(place, name, unknown_table(name));
@@ -104,12 +104,12 @@ void Document::collect_table(const std::string& name, const Location& place,
   SceneTable collected{name, place, {}};
   for (const auto& [key, value] : in_file_order(table)) {
     const Location key_place = located(file_, key->source());
-    if (find_key(described, key->str()) == nullptr) {
-      throw SceneError(key_place, fmt::format("{}.{}", name, key->str()),
-                       unknown_key(described, key->str()));
+    const std::string key_name = name_of(*key);
+    if (find_key(described, key_name) == nullptr) {
+      throw SceneError(key_place, fmt::format("{}.{}", name, key_name),
+                       unknown_key(described, key_name));
     }
-    collected.entries[std::string(key->str())] = {value, key_place,
-                                                  located(file_, value->source())};
+    collected.entries[key_name] = {value, key_place, located(file_, value->source())};
   }
   tables_[name] = std::move(collected);
 }

@@ -55,7 +55,7 @@ std::string unquoted(const std::string& path, const Location& place) {
   const toml::table* table = &holder;
   while (table != nullptr && table->size() == 1) {
     const auto only = table->begin();
-    names += fmt::format("{}{}", names.empty() ? "" : ".", only->first.str());
+    names += fmt::format("{}{}", names.empty() ? "" : ".", name_of(only->first));
     table = only->second.as_table();
   }
   if (table != nullptr) {

@@ -57,8 +57,10 @@ std::vector<std::string> dotted_keys_of(std::string_view key,
   std::vector<std::string> found;
   for (const std::string_view name : names) {
     const std::size_t dot = name.find('.');
-    const std::string_view end =
-        dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1);
+    if (dot == std::string_view::npos) {
+      continue;
+    }
+    const std::string_view end = name.substr(dot + 1);
     if (end == key || lacks_only_unit(key, end)) {
       found.push_back(fmt::format("\"{}\"", name));
     }

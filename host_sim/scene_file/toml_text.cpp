@@ -99,6 +99,10 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
+std::string name_of(const toml::key& key) {
+  return key.empty() ? "\"\"" : std::string(key.str());
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;
   return text.size() <= longest ? fmt::format("\"{}\"", text)

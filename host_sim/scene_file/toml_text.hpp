@@ -24,6 +24,9 @@ std::optional<std::size_t> find_excess_dot(std::string_view text);
 ///         exhaust the stack.
 toml::table parse_toml(std::string_view text, const std::string& file);
 
+/// The name of a key or table as messages give it: an empty one, which TOML allows, is `""`.
+std::string name_of(const toml::key& key);
+
 /// A text that somebody gave, in quotes and short enough for a message.
 std::string in_quotes(std::string_view text);
 

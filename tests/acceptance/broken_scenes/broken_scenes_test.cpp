@@ -125,6 +125,15 @@ const std::vector<BrokenScene> broken_scenes = {
      "4:2: weather: unknown table; allowed: plant, friction, sliding, load, transducer, drive, solver, "
      "run, "
      "controller, sensor, model_error, tolerance, true_values"},
+    {"table_without_name", open_loop, "[friction]", "['']",
+     "4:2: \"\": unknown table; allowed: plant, friction, sliding, load, transducer, drive, solver, "
+     "run, controller, sensor, model_error, tolerance, true_values"},
+    {"value_without_name", open_loop, "[plant]", "'' = '''\n'''\n[plant]",
+     "1:1: \"\": unknown table; allowed: plant, friction, sliding, load, transducer, drive, solver, "
+     "run, controller, sensor, model_error, tolerance, true_values"},
+    {"key_without_name", open_loop, "[run]", "[run]\n\"\" = 3",
+     "18:1: run.\"\": unknown key; allowed: start, duration_s, duration_periods, window_start_s, window_start_periods, settling_band, "
+     "record, record_interval_s"},
     {"first_unknown_key_in_file_order", open_loop, "coefficient = 0.1",
      "zeta = 1\nalpha = 2\ncoefficient = 0.1",
      "6:1: friction.zeta: unknown key; allowed: law, coefficient, coefficient_profile, "

@@ -56,6 +56,15 @@ const std::vector<BadOverride> bad_overrides = {
     {"key_of_another_table_without_quotes", "--set tolerance.plant=0.01",
      "--set:1:1: tolerance.plant: unknown key; one of another table stands in quotes here, as "
      "\"plant.mass_kg\""},
+    {"key_without_name", "--set run.=3",
+     "--set:1:1: run.: unknown key; allowed: start, duration_s, duration_periods, window_start_s, window_start_periods, settling_band, "
+     "record, record_interval_s"},
+    {"quoted_key_without_name", "--set 'run.\"\"=3'",
+     "--set:1:1: run.\"\": unknown key; allowed: start, duration_s, duration_periods, window_start_s, window_start_periods, settling_band, "
+     "record, record_interval_s"},
+    {"quoted_table_without_name", "--set '\"\"=3'",
+     "--set:1:1: \"\": unknown table; allowed: plant, friction, sliding, load, transducer, drive, "
+     "solver, run, controller, sensor, model_error, tolerance, true_values"},
     {"unknown_table", "--set plan.mass_kg=3",
      "--set:1:1: plan.mass_kg: unknown table; did you mean plant?"},
     {"key_without_table", "--set mass_kg=3",
