@@ -117,23 +117,27 @@ const std::string& Instance::get_text(std::uint32_t reference) {
   return texts_[reference] = std::get<std::string>(get(reference));
 }
 
-void Instance::require_start(double start_s) const {
-  const double magnitude_s = std::abs(start_s);
+void Instance::require_range(const TimeRange& range) const {
+  const double magnitude_s = std::abs(range.start_s);
   const double spacing_s =
       std::nextafter(magnitude_s, std::numeric_limits<double>::infinity()) - magnitude_s;
   if (!(spacing_s <= point_tolerance / experiment_.plant.drive->frequency_Hz)) {
     throw CallError(
         fmt::format("the start time is {} s; allowed: a finite number whose rounding "
                     "is below {} carrier periods",
-                    start_s, point_tolerance));
+                    range.start_s, point_tolerance));
+  }
+  if (!(range.stop_s >= range.start_s)) {
+    throw CallError(fmt::format("the stop time is {} s; allowed: from the start time, {} s, on",
+                                range.stop_s, range.start_s));
   }
 }
 
-void Instance::enter_initialization(double start_s) {
+void Instance::enter_initialization(const TimeRange& range) {
   require(now_.phase == Phase::instantiated, "to enter initialization mode");
-  require_start(start_s);
-  now_.start_s = start_s;
-  now_.time_s = start_s;
+  require_range(range);
+  now_.range = range;
+  now_.time_s = range.start_s;
   now_.phase = Phase::initialization;
 }
 
@@ -164,11 +168,19 @@ void Instance::require_step(double time_s, double duration_s) const {
                     time_s, now_.time_s));
   }
   const double most_s = (loop::endless_periods - 1.0) * period_s;
-  if (!(duration_s > 0.0 && time_s + duration_s - now_.start_s <= most_s)) {
+  if (!(duration_s > 0.0 && time_s + duration_s - now_.range.start_s <= most_s)) {
     throw CallError(
         fmt::format("the communication step is {} s; allowed: above 0 s, up to {} s after "
                     "the start",
                     duration_s, most_s));
+  }
+  // Importers that add up steps, or call times 1e-5 s apart equal, may begin one step too many.
+  const double end_s = time_s + duration_s;
+  if (end_s > now_.range.stop_s + (1.0 + point_tolerance) * period_s) {
+    throw CallError(
+        fmt::format("the communication step ends at {} s; allowed: up to {} s, which is "
+                    "set as the stop time",
+                    end_s, now_.range.stop_s));
   }
 }
 
@@ -176,11 +188,11 @@ bool Instance::advance(double time_s, double duration_s, bool may_stop_early) {
   require_step(time_s, duration_s);
   const auto ends_by = [this](double until_s) {
     const loop::CarrierClock period = engine().next_period(now_.inputs);
-    return period.end_s() - (until_s - now_.start_s) <= point_tolerance * period.period_s();
+    return period.end_s() - (until_s - now_.range.start_s) <= point_tolerance * period.period_s();
   };
   const double end_s = time_s + duration_s;
   while (ends_by(end_s)) {
-    const double period_end_s = now_.start_s + engine().next_period(now_.inputs).end_s();
+    const double period_end_s = now_.range.start_s + engine().next_period(now_.inputs).end_s();
     engine().advance(now_.inputs);
     if (may_stop_early && engine().fault_began() && ends_by(end_s)) {
       now_.time_s = period_end_s;

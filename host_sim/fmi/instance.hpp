@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -26,10 +27,16 @@ class CallError : public std::runtime_error {
 /// Where an instance is on its way.
 enum class Phase { instantiated, initialization, step, terminated };
 
+/// When an importer lets a simulation begin and end.
+struct TimeRange {
+  double start_s = 0.0;
+  double stop_s = std::numeric_limits<double>::infinity();
+};
+
 /// All of an instance but its place in memory.
 struct State {
   Phase phase = Phase::instantiated;
-  double start_s = 0.0;
+  TimeRange range;
   double time_s = 0.0;  ///< of the last communication point
   Inputs inputs;
   std::map<std::uint32_t, double> parameters;  ///< that were set, by their value references
@@ -52,10 +59,10 @@ class Instance {
   /// The text of a get() that stays until the next one of the same variable.
   const std::string& get_text(std::uint32_t reference);
 
-  /// @throws CallError  no carrier period can be counted from that time on
-  void require_start(double start_s) const;
-  /// @throws CallError  see require_start()
-  void enter_initialization(double start_s);
+  /// @throws CallError  no carrier period can be counted from that start on, or it stops before
+  void require_range(const TimeRange& range) const;
+  /// @throws CallError  see require_range()
+  void enter_initialization(const TimeRange& range);
   void exit_initialization();
   void terminate();
   void reset();
@@ -63,7 +70,7 @@ class Instance {
   /// Carries out the carrier periods that end in this step, be it none: the outputs then hold.
   /// @param may_stop_early  when a fault begins
   /// @return  whether it did so: time_s() is then before the end that was asked for
-  /// @throws CallError  it does not begin here, or has no length
+  /// @throws CallError  it does not begin here, has no length, or ends after the stop time
   /// @throws loop::ComputationError
   bool advance(double time_s, double duration_s, bool may_stop_early);
   double time_s() const { return now_.time_s; }

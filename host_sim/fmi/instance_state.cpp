@@ -45,7 +45,7 @@ void Instance::copy_parts(loop::StateCopy& copy, State& state) const {
     throw CallError("the serialized state is that of another FMU");
   }
   std::size_t parameters = state.parameters.size();
-  copy(state.phase, state.start_s, state.time_s, state.inputs, parameters);
+  copy(state.phase, state.range, state.time_s, state.inputs, parameters);
   for (auto next = state.parameters.begin(); parameters > 0; --parameters) {
     std::uint32_t reference = copy.is_back() ? 0 : next++->first;
     copy(reference);

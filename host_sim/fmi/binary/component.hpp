@@ -92,6 +92,11 @@ class Component {
   Instance instance_;
 };
 
+/// @param stop_s  counts where it is defined
+inline TimeRange range_of(double start_s, bool stop_defined, double stop_s) {
+  return stop_defined ? TimeRange{start_s, stop_s} : TimeRange{start_s};
+}
+
 /// For what the description of the model says that there is none.
 [[noreturn]] inline void refuse(const char* what) {
   throw CallError(std::string(what) + ": this FMU has none");

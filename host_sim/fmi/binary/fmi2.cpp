@@ -14,7 +14,7 @@ namespace {
 /// What this version of the interface asks for besides.
 struct Component2 {
   std::unique_ptr<Component> component;
-  double start_s = 0.0;
+  TimeRange range;
 };
 
 fmi2Status status_of_2(Status status) {
@@ -120,7 +120,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
   }
   auto component = Component::create(path_of(resource_location == nullptr ? "" : resource_location),
                                      guid == nullptr ? "" : guid, log);
-  return component == nullptr ? nullptr : new Component2{std::move(component)};
+  return component == nullptr ? nullptr : new Component2{std::move(component), {}};
 }
 
 void fmi2FreeInstance(fmi2Component component) {
@@ -129,16 +129,17 @@ void fmi2FreeInstance(fmi2Component component) {
 
 fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean /*tolerance_defined*/,
                                fmi2Real /*tolerance*/, fmi2Real start_time,
-                               fmi2Boolean /*stop_time_defined*/, fmi2Real /*stop_time*/) {
+                               fmi2Boolean stop_time_defined, fmi2Real stop_time) {
   return attempt(component, [&](const Instance& each) {
-    each.require_start(start_time);
-    static_cast<Component2*>(component)->start_s = start_time;
+    const TimeRange range = range_of(start_time, stop_time_defined != 0, stop_time);
+    each.require_range(range);
+    static_cast<Component2*>(component)->range = range;
   });
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component component) {
   return attempt(component, [&](Instance& each) {
-    each.enter_initialization(static_cast<Component2*>(component)->start_s);
+    each.enter_initialization(static_cast<Component2*>(component)->range);
   });
 }
 
@@ -152,7 +153,7 @@ fmi2Status fmi2Terminate(fmi2Component component) {
 
 fmi2Status fmi2Reset(fmi2Component component) {
   return attempt(component, [&](Instance& each) {
-    static_cast<Component2*>(component)->start_s = 0.0;
+    static_cast<Component2*>(component)->range = TimeRange();
     each.reset();
   });
 }

@@ -104,9 +104,10 @@ void fmi3FreeInstance(fmi3Instance instance) {
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean /*tolerance_defined*/,
                                        fmi3Float64 /*tolerance*/, fmi3Float64 start_time,
-                                       fmi3Boolean /*stop_time_defined*/,
-                                       fmi3Float64 /*stop_time*/) {
-  return attempt(instance, [&](Instance& each) { each.enter_initialization(start_time); });
+                                       fmi3Boolean stop_time_defined, fmi3Float64 stop_time) {
+  return attempt(instance, [&](Instance& each) {
+    each.enter_initialization(range_of(start_time, stop_time_defined, stop_time));
+  });
 }
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {

@@ -55,6 +55,38 @@ TEST_F(FmuRefusal, AStartTimeFromWhichNothingCanBeCountedIsRefused) {
   }
 }
 
+TEST_F(FmuRefusal, AStepPastTheStopTimeIsRefused) {
+  constexpr double start_s = 0.25;
+  const double stop_s = start_s + periods * step_s();
+  for (const double wrong_s : {std::numeric_limits<double>::quiet_NaN(), start_s - step_s()}) {
+    EXPECT_EQ(Instance3(*fmu).enter(start_s, wrong_s), fmi3Error) << wrong_s;
+  }
+  Instance3 loop(*fmu);
+  ASSERT_EQ(loop.enter(start_s, stop_s), fmi3OK) << loop.messages();
+  ASSERT_EQ(loop.exit(), fmi3OK);
+  EXPECT_EQ(loop.step(start_s, (periods + 1.1) * step_s()).status, fmi3Error);
+  EXPECT_NE(loop.messages().find("set as the stop time"), std::string::npos) << loop.messages();
+  ASSERT_EQ(loop.step(start_s, periods * step_s()).status, fmi3OK) << loop.messages();
+  EXPECT_EQ(loop.text("trace_hash"), hash_of_run()) << "the refused step changes nothing";
+  Instance3 restored(*fmu);
+  restored.restore(loop.serialized_state());
+  for (Instance3* each : {&loop, &restored}) {
+    EXPECT_EQ(each->step(stop_s, 2.0 * step_s()).status, fmi3Error);
+    EXPECT_EQ(each->step(stop_s, step_s()).status, fmi3OK) << "as whoever adds up steps may do";
+  }
+
+  make_fmu(*folder, "scene.toml", "--kind loop --fmi 2", "loop2");
+  const Fmu2 fmu2(*folder, "loop2");
+  Instance2 loop2(fmu2);
+  const auto set_up = SONOGLIDE_CALL2(loop2, fmi2SetupExperiment);
+  EXPECT_EQ(set_up(loop2.get(), 0, 0.0, start_s, 1, start_s - step_s()), fmi2Error);
+  ASSERT_EQ(set_up(loop2.get(), 0, 0.0, start_s, 1, stop_s), fmi2OK);
+  ASSERT_EQ(SONOGLIDE_CALL2(loop2, fmi2EnterInitializationMode)(loop2.get()), fmi2OK);
+  ASSERT_EQ(SONOGLIDE_CALL2(loop2, fmi2ExitInitializationMode)(loop2.get()), fmi2OK);
+  EXPECT_EQ(loop2.step(start_s, (periods + 1.1) * step_s()), fmi2Error);
+  EXPECT_EQ(loop2.step(start_s, periods * step_s()), fmi2OK) << loop2.messages();
+}
+
 TEST_F(FmuRefusal, NullPointersAreRefused) {
   Instance3 loop(*fmu);
   loop.initialize();

@@ -34,9 +34,9 @@ Instance3::~Instance3() {
   SONOGLIDE_CALL3(*this, fmi3FreeInstance)(instance_);
 }
 
-fmi3Status Instance3::enter(double start_s) {
-  return SONOGLIDE_CALL3(*this, fmi3EnterInitializationMode)(instance_, false, 0.0, start_s, false,
-                                                             0.0);
+fmi3Status Instance3::enter(double start_s, std::optional<double> stop_s) {
+  return SONOGLIDE_CALL3(*this, fmi3EnterInitializationMode)(
+      instance_, false, 0.0, start_s, stop_s.has_value(), stop_s.value_or(0.0));
 }
 
 fmi3Status Instance3::exit() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,7 @@ class Instance3 {
   const std::string& messages() const { return messages_.text; }
 
   void initialize(double start_s = 0.0);
-  fmi3Status enter(double start_s = 0.0);
+  fmi3Status enter(double start_s = 0.0, std::optional<double> stop_s = std::nullopt);
   fmi3Status exit();
   fmi3Status set(const std::string& variable, double value);
   fmi3Status set(const std::string& variable, std::int32_t value);
