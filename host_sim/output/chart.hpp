@@ -39,7 +39,7 @@ struct Axis {
 enum class Line {
   joined,       ///< from point to point, with a gap where y is not finite
   bridged,      ///< across the gaps too: a branch of a loop
-  stepped,      ///< held until the next point
+  stepped,      ///< held until the next point, the last one as long as the one before it
   dots,         ///< a dot each
   area,         ///< the inside of a closed outline
   band,         ///< stepped, filled as far as half_width to either side

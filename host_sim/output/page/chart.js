@@ -25,7 +25,12 @@ class Chart {
     const x = series.x || this.data.abscissae;
     let sorted = true;
     for (let i = 1; i < x.length && sorted; ++i) sorted = x[i] >= x[i - 1];
-    return {...series, x, sorted, style};
+    return {...series, x, sorted, style, held: series.line === 'stepped' || series.line === 'band'};
+  }
+
+  // Where a level that is held from a point on ends; the last lasts as long as the one before it.
+  static endOfLevel({x}, i) {
+    return i + 1 < x.length ? x[i + 1] : i > 0 ? 2 * x[i] - x[i - 1] : x[i];
   }
 
   // ---- Ranges, in the axis' own measure: the logarithm on a logarithmic axis -----------------
@@ -71,6 +76,7 @@ class Chart {
       for (let i = 0; i < series.y.length; ++i) {
         if (series.y[i] === null) continue;
         yield series.x[i];
+        if (series.held) yield Chart.endOfLevel(series, i);
         if (series.line === 'bar') yield* [series.x[i] - 0.5, series.x[i] + 0.5];
       }
     }
@@ -241,8 +247,8 @@ class Chart {
     }).join('');
   }
 
-  // The points on show and one beyond either end; of more than the chart has columns the smallest
-  // and the largest of each column.
+  // The points on show and one beyond either end, a gap at i as ~i, which is below 0; of more than the
+  // chart has columns the smallest and the largest of each column.
   *points(series) {
     const {x, y, sorted} = series;
     let [from, to] = [0, y.length];
@@ -251,7 +257,7 @@ class Chart {
       from = Math.max(0, Chart.firstAtLeast(x, low) - 1);
       to = Math.min(y.length, Chart.firstAtLeast(x, high) + 2);
     }
-    const point = (i) => this.canShow('y', y[i]) && this.canShow('x', x[i]) ? i : -1;
+    const point = (i) => this.canShow('y', y[i]) && this.canShow('x', x[i]) ? i : ~i;
     const column = (to - from) / (3 * this.area.width);
     if (!sorted || column < 2) {
       for (let i = from; i < to; ++i) yield point(i);
@@ -281,40 +287,40 @@ class Chart {
   }
 
   // A point alone shows as a dot, by its round ends.
-  linePath(series, offset = () => 0) {
+  linePath(series) {
     let d = '';
-    let pen = false;
-    let before = 0;
+    let last = -1;
     for (const i of this.points(series)) {
       if (i < 0) {
-        if (series.line !== 'bridged') pen = false;
+        if (series.line === 'bridged') continue;
+        if (series.held && last >= 0) d += `H${this.px(series.x[~i]).toFixed(1)}`;
+        last = -1;
         continue;
       }
       const x = this.px(series.x[i]).toFixed(1);
-      const y = this.py(series.y[i] + offset(i)).toFixed(1);
-      if (!pen) d += `M${x} ${y}h.01`;
-      else if (series.line === 'stepped' || series.line === 'band') d += `H${x}V${y}`;
-      else if (x !== before) d += `L${x} ${y}`;
-      else d += `V${y}`;
-      before = x;
-      pen = true;
+      const y = this.py(series.y[i]).toFixed(1);
+      if (last < 0) d += `M${x} ${y}h.01`;
+      else if (series.held) d += `H${x}V${y}`;
+      else d += `L${x} ${y}`;
+      last = i;
     }
-    return d;
+    return series.held && last >= 0 ? `${d}H${this.px(Chart.endOfLevel(series, last)).toFixed(1)}` : d;
   }
 
   bandPath(series) {
     let d = '';
-    let last = null;
+    let last = -1;
+    const hold = (end) => {
+      if (last < 0) return;
+      const [left, right] = [series.x[last], end].map((x) => this.px(x).toFixed(1));
+      const [y, half] = [series.y[last], series.halfWidth[last]];
+      d += `M${left} ${this.py(y + half).toFixed(1)}H${right}V${this.py(y - half).toFixed(1)}H${left}z`;
+    };
     for (const i of this.points(series)) {
-      if (last !== null) {
-        const right = i < 0 ? this.px(series.x[last]) : this.px(series.x[i]);
-        const y = series.y[last];
-        const half = series.halfWidth[last];
-        d += `M${this.px(series.x[last]).toFixed(1)} ${this.py(y + half).toFixed(1)}` +
-            `H${right.toFixed(1)}V${this.py(y - half).toFixed(1)}H${this.px(series.x[last]).toFixed(1)}z`;
-      }
-      last = i < 0 ? null : i;
+      hold(series.x[i < 0 ? ~i : i]);
+      last = i;
     }
+    hold(Chart.endOfLevel(series, last));
     return d;
   }
 

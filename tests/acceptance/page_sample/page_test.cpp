@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "host_sim/output/page.hpp"
 #include "sample_page.hpp"
@@ -107,6 +109,30 @@ void expect_contrast(const browser::Visit& seen, bool dark) {
   EXPECT_EQ(browser::body_attribute(seen.dom, "data-dark"), dark ? "true" : "false");
   EXPECT_GE(count(seen, "data-curves"), 30) << "tenths; WCAG 2.1 asks 3:1 of graphics";
   EXPECT_GE(count(seen, "data-texts"), 45) << "tenths; WCAG 2.1 asks 4.5:1 of texts";
+}
+
+// The second value is a gap: the levels last from 0 to 1, 2 to 3, and 3 to 4.
+TEST_F(PageInBrowser, HoldsALevelUpToAGapAndAtTheEnd) {
+  output::Page page = report::sample_page();
+  const std::vector<double> levels = {5.0, std::numeric_limits<double>::quiet_NaN(), 7.0, 8.0};
+  output::Curve band{"band", levels, output::Line::band};
+  band.half_width.assign(levels.size(), 0.5);
+  output::Chart chart;
+  chart.x = {0.0, 1.0, 2.0, 3.0};
+  chart.curves = {band, {"level", levels, output::Line::stepped}};
+  page.sections = {{"Levels", "", {chart}}};
+  const browser::Visit seen = visit(output::to_html(page), R"js(
+    const {chart} = document.querySelector('figure.panel');
+    const held = (path) => [1, 3, 4].filter((x) => path.includes(`H${chart.px(x).toFixed(1)}`)).length;
+    Object.assign(document.body.dataset, {
+      band: held(chart.bandPath(chart.series[0])),
+      line: held(chart.linePath(chart.series[1])),
+      end: chart.xAxisRange()[1],
+    });
+  )js");
+  EXPECT_EQ(count(seen, "data-band"), 3);
+  EXPECT_EQ(count(seen, "data-line"), 3);
+  EXPECT_EQ(count(seen, "data-end"), 4);
 }
 
 TEST_F(PageInBrowser, IsUsedByTouchAndKeyboardInTheDark) {
