@@ -177,7 +177,7 @@ std::vector<std::string> run_warnings(const scene::Scene& scene, const loop::Run
   if (findings.course().periods_in(control::Limit::velocity_at_rail) > 0) {
     all.push_back(fmt::format(
         "The drive was held, and then taken to zero, while the velocity sensor stood at the end of "
-        "its range, {:.3g} m/s. No vibration of this drive is faster.",
+        "its range, {:.3g} m/s, which is the velocity of the largest vibration.",
         result.control->design.scales.velocity_m_per_s));
   }
   return all;

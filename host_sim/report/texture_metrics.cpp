@@ -33,6 +33,12 @@ double largest_amplitude(const scene::Texture& texture) {
   return largest;
 }
 
+/// With the angle to the other one reversed. @param about  not 0
+std::complex<double> mirrored(const std::complex<double>& value,
+                              const std::complex<double>& about) {
+  return about * std::conj(value / about);
+}
+
 /// The mean, and what is worth a line.
 std::vector<int> worth_telling(const scene::Texture& texture) {
   constexpr double least_part = 1e-3;
@@ -135,8 +141,11 @@ void TextureMeter::end_pass(double end_m, bool steady) {
                      travelled_m_ < (1.0 + rounding) * period_m;
   if (counts_ && whole) {
     ++passes_;
+    const bool forward = entered_m_ < end_m;
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-      sums_[i] += pass_[i];
+      sums_[i] += forward || numbers_[i] == 0
+                      ? pass_[i]
+                      : mirrored(pass_[i], harmonic_of(texture_, numbers_[i]));
     }
   }
   std::fill(pass_.begin(), pass_.end(), 0.0);

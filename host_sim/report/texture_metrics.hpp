@@ -12,15 +12,17 @@
 
 namespace sonoglide::report {
 
-/// A harmonic of the period, c in Re(c e^(jh 2π x/P)), x the distance; the mean for h = 0.
+/// A harmonic of the period, c in Re(c e^(jh 2π x/P)), x the distance; the mean for h = 0. Of a pass
+/// backward the rendered one is mirrored about the wanted one: what comes later has the lower phase
+/// in either direction.
 struct TextureHarmonic {
   int harmonic;
   std::complex<double> wanted;    ///< ratio, or force over the unit's size
   std::complex<double> rendered;  ///< NaN where no whole period passed
   bool is_faint;                  ///< wanted below 1 % of the largest harmonic
 
-  /// Rendered over wanted, and how much further along the path the rendered one lies, in degrees. Of a faint
-  /// harmonic both are noise.
+  /// Rendered over wanted, and how much later the rendered one comes, in degrees. Of a faint harmonic
+  /// both are noise.
   double amplitude_ratio() const;
   double lag_deg() const;
 };

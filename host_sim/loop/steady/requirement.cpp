@@ -124,6 +124,8 @@ const char* name(Obstacle limit) {
       return "undriven";
     case Obstacle::actuator:
       return "actuator";
+    case Obstacle::velocity_at_rail:
+      return "velocity_at_rail";
     case Obstacle::amplitude:
       return "amplitude";
     case Obstacle::contact_lost:

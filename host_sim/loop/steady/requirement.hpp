@@ -81,17 +81,19 @@ double force_N(const scene::Scene& scene, double vibration_m_per_s);
 /// What stands between a ratio and the drive.
 enum class Obstacle {
   none,
-  undriven,      ///< the contact has the ratio without vibration
-  actuator,      ///< the force is more than the drive has
-  amplitude,     ///< no vibration makes the ratio so low
-  contact_lost,  ///< none that leaves a contact closed that vibrates normally
-  unstable,      ///< the steady vibration that gives it repels: a small deviation grows
-  no_orbit,      ///< no steady vibration has been found
+  undriven,          ///< the contact has the ratio without vibration
+  actuator,          ///< the force is more than the drive has
+  velocity_at_rail,  ///< the sliding is as fast as a controller's velocities reach: it does not drive
+  amplitude,         ///< no vibration makes the ratio so low
+  contact_lost,      ///< none that leaves a contact closed that vibrates normally
+  unstable,          ///< the steady vibration that gives it repels: a small deviation grows
+  no_orbit,          ///< no steady vibration has been found
 };
 
 const char* name(Obstacle limit);
 
-/// What is not defined is NaN: the motion where the limit is none but actuator and none.
+/// What is not defined is NaN: the motion where the limit is none of none, actuator and
+/// velocity_at_rail.
 struct Requirement {
   double sliding_m_per_s = 0.0;
   double ratio = 0.0;
@@ -108,6 +110,7 @@ struct Requirement {
   double unstable_force_N = undefined;  ///< of unstable
 };
 
+/// Of the plant, whatever controls it: never velocity_at_rail.
 /// By the closed form's inverse, put right by a root of the ratio on the steady orbit. The search
 /// goes on over forces whose orbit repels, and over those under which there is none.
 /// Error: force 1e-9 of itself where friction hardly bends the motion.

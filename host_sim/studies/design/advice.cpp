@@ -56,6 +56,11 @@ std::string shortfall(const DesignStudy& study, const steady::Requirement& point
                          nearest_text(point, " at this speed"),
                          slower.empty() ? "" : fmt::format("; {:g} is {}", point.ratio, slower));
     }
+    case steady::Obstacle::velocity_at_rail:
+      return fmt::format(
+          "{} is beyond the controller: its velocities end at {}. From there on it holds the drive, and "
+          "then takes it to zero.",
+          where, speed(study.task.full_scale_m_per_s));
     case steady::Obstacle::amplitude:
       return fmt::format("{} cannot be reached: more vibration raises the friction again.{}.",
                          where, nearest_text(point, ""));
@@ -235,14 +240,23 @@ Advice resonance(const DesignStudy& study, const Detuning& detuning) {
                       study.task.scene.run.settling_band)};
 }
 
+/// An end that was not found lies beyond the tunings that were tried.
+std::string band_text(const TuningBand& band) {
+  const bool has_low = band.low > smallest_tuning;
+  const bool has_high = band.high < largest_tuning;
+  if (!has_low && !has_high) {
+    return fmt::format("every Ks/(m w^2) that was tried, {:g} to {:g}", band.low, band.high);
+  }
+  if (!has_high) {
+    return fmt::format("Ks/(m w^2) from {:.3g} on; up to {:g} was tried", band.low, band.high);
+  }
+  return has_low ? fmt::format("Ks/(m w^2) from {:.3g} to {:.3g}", band.low, band.high)
+                 : fmt::format("Ks/(m w^2) up to {:.3g}", band.high);
+}
+
 Advice tuning_reach(const Detuning& detuning) {
-  const TuningBand& band = *detuning.reachable;
-  return {"Detuning",
-          fmt::format("The drive reaches ratio {:g} at {} for Ks/(m w^2) {} {:.3g}.",
-                      detuning.ratio, speed(detuning.sliding_m_per_s),
-                      band.low > smallest_tuning ? fmt::format("from {:.3g} to", band.low)
-                                                 : std::string("up to"),
-                      band.high)};
+  return {"Detuning", fmt::format("The drive reaches ratio {:g} at {} for {}.", detuning.ratio,
+                                  speed(detuning.sliding_m_per_s), band_text(*detuning.reachable))};
 }
 
 Advice amplifier(const DesignStudy& study, const steady::Requirement& point) {

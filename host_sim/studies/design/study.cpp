@@ -36,15 +36,26 @@ std::vector<double> curve_speeds_m_per_s(const SpeedRange& speeds) {
 
 bool has_motion(const steady::Requirement& requirement) {
   return requirement.limit == steady::Obstacle::none ||
-         requirement.limit == steady::Obstacle::actuator;
+         requirement.limit == steady::Obstacle::actuator ||
+         requirement.limit == steady::Obstacle::velocity_at_rail;
+}
+
+steady::Requirement requirement_at(const Task& task, double sliding_m_per_s, double ratio) {
+  steady::Requirement found = steady::require_ratio(task.scene, sliding_m_per_s, ratio);
+  if (found.limit == steady::Obstacle::none && sliding_m_per_s >= task.full_scale_m_per_s) {
+    found.limit = steady::Obstacle::velocity_at_rail;
+    found.reachable_ratio = 1.0;
+  }
+  return found;
 }
 
 RatioRequirements ratio_curve(const Task& task, double ratio,
                               const std::vector<double>& speeds_m_per_s) {
-  RatioRequirements curve{ratio, std::vector<steady::Requirement>(speeds_m_per_s.size()),
-                          steady::fastest_sliding_m_per_s(task.scene, ratio)};
+  RatioRequirements curve{
+      ratio, std::vector<steady::Requirement>(speeds_m_per_s.size()),
+      std::min(steady::fastest_sliding_m_per_s(task.scene, ratio), task.full_scale_m_per_s)};
   tbb::parallel_for(std::size_t{0}, speeds_m_per_s.size(), [&](std::size_t i) {
-    curve.requirements[i] = steady::require_ratio(task.scene, speeds_m_per_s[i], ratio);
+    curve.requirements[i] = requirement_at(task, speeds_m_per_s[i], ratio);
   });
   return curve;
 }

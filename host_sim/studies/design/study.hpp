@@ -150,7 +150,10 @@ std::string allowed_speeds();
 struct Task {
   scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit
   scene::Scene stated;         ///< the same without true values
-  double speed_floor_m_per_s;  ///< of its controller: slower, the drive is held
+  /// Of its controller: slower, the drive is held.
+  double speed_floor_m_per_s;
+  /// Of its velocities: from here on the drive is held and then taken to zero.
+  double full_scale_m_per_s;
   std::vector<double> ratios;  ///< each once, rising
   SpeedRange speeds;
   bool at_resonance;  ///< where a controller keeps the drive, by its frequency
@@ -179,7 +182,7 @@ struct DesignPoint {
 struct RatioRequirements {
   double ratio;
   std::vector<steady::Requirement> requirements;  ///< by rising speed: study().speeds_m_per_s
-  double fastest_m_per_s;  ///< at which the whole drive holds the ratio; may be NaN
+  double fastest_m_per_s;  ///< at which drive and controller hold the ratio; may be NaN
 };
 
 struct DesignStudy {

@@ -108,11 +108,13 @@ Task make_task(const configure::Experiment& experiment, const std::vector<double
                const std::optional<SpeedRange>& speeds) {
   const scene::Scene& scene = experiment.plant;
   require_steady_vibration(scene);
-  const double floor_m_per_s = experiment.design->speed_floor_m_per_s();
+  const configure::ControlDesign& control = *experiment.design;
+  const double floor_m_per_s = control.speed_floor_m_per_s();
   Task task{
       scene,
       experiment.nominal,
       floor_m_per_s,
+      control.scales.velocity_m_per_s,
       ratios.empty() ? configure::nominal_plant(scene).target_ratios(*scene.controller) : ratios,
       speeds ? *speeds : speeds_of(scene, floor_m_per_s),
       scene.resonant()};
@@ -120,7 +122,9 @@ Task make_task(const configure::Experiment& experiment, const std::vector<double
     // The loop there is another one, of another carrier.
     task.scene.drive->frequency_Hz = scene.plant.natural_Hz();
     task.stated.drive->frequency_Hz = task.scene.drive->frequency_Hz;
-    task.speed_floor_m_per_s = configure::design_control(task.stated).speed_floor_m_per_s();
+    const configure::ControlDesign there = configure::design_control(task.stated);
+    task.speed_floor_m_per_s = there.speed_floor_m_per_s();
+    task.full_scale_m_per_s = there.scales.velocity_m_per_s;
   }
   if (!(task.speeds.slowest_m_per_s > 0.0)) {
     throw configure::ConfigurationError(

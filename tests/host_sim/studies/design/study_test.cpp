@@ -102,6 +102,27 @@ TEST(DesignStudyTest, OfASingleSpeedShowsADecadeToEitherSide) {
   EXPECT_GT(found.curves[0].fastest_m_per_s, 0.1);
 }
 
+// A transverse vibration lowers the friction of a sliding that is faster than itself. The controller
+// does not drive there.
+TEST(DesignStudyTest, NamesAVelocityBeyondTheControllers) {
+  const scene::Scene scene = steady::transverse();
+  const Task task = task_of(scene, {0.9}, {});
+  const double full_m_per_s = task.full_scale_m_per_s;
+  const auto found_at = [&](double fastest_m_per_s) {
+    return study(task_of(scene, {0.9}, SpeedRange{0.5 * full_m_per_s, fastest_m_per_s}),
+                 [](double) {});
+  };
+  const DesignStudy within = found_at(0.999 * full_m_per_s);
+  EXPECT_EQ(within.points.back().requirement.limit, steady::Obstacle::none);
+  EXPECT_EQ(within.curves[0].fastest_m_per_s, full_m_per_s);
+  const DesignStudy beyond = found_at(full_m_per_s);
+  const steady::Requirement& fastest = beyond.points.back().requirement;
+  EXPECT_EQ(fastest.limit, steady::Obstacle::velocity_at_rail);
+  EXPECT_EQ(fastest.reachable_ratio, 1.0);
+  EXPECT_LT(fastest.motion.drive_force_N, scene.max_drive_force_N());
+  EXPECT_EQ(beyond.points.front().requirement.limit, steady::Obstacle::none);
+}
+
 // A row, and not the end of the study.
 TEST(DesignStudyTest, GoesOnWhereAnOrbitRepels) {
   const DesignStudy found = study(task_of(heavy_contact(2000.0), {0.9}, {}), [](double) {});
