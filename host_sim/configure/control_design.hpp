@@ -103,9 +103,10 @@ struct ControlDesign {
   double standstill_fall = 0.0;  ///< of the amplitude after that, per period
   double settling_band = 0.0;    ///< as the sensor shows it, on base 2
   std::uint16_t settling_patience_periods = 0;
-  /// Commanded over target ratio tells nominal over true friction: the feedforward's map is the
-  /// law's own, and friction too light to slow the vibration.
+  /// The feedforward's map is the law's own, and friction too light to slow the largest vibration.
   bool maps_friction = false;
+  /// Nor that of any target: commanded over target ratio tells nominal over true friction.
+  bool estimates_mismatch = false;
   double agreement = 0.0;  ///< 1 / controller.mismatch_warning; 0: the loop tells of no mismatch
 
   double carrier_Hz = 0.0;            ///< nominal, at the start

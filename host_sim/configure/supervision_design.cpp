@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "host_sim/configure/design_periods.hpp"
+#include "host_sim/configure/plant_scales.hpp"
 
 namespace sonoglide::configure {
 namespace {
@@ -27,6 +28,35 @@ bool has_true_map(const scene::Scene& scene, const NominalPlant& plant) {
   constexpr double light_friction = 0.02;  // of the drive
   return scene.drive->waveform == scene::Waveform::cosine && has_one_level(scene) &&
          plant.friction_N < light_friction * scene.max_drive_force_N();
+}
+
+/// Under the drive that each target takes, friction along the vibration hardly slows it.
+bool vibrates_freely(const scene::Scene& scene, const NominalPlant& plant,
+                     const ControlDesign& design) {
+  if (design.vibration_mode() != scene::VibrationMode::feedforward ||
+      scene::vibration_of(scene.friction.law) != friction::Vibration::along) {
+    return true;
+  }
+  constexpr double light_friction = 0.2;  // of the drive: it takes 3 % of the velocity
+  const VibrationMap map = design.vibration_map(plant.friction_N);
+  const double omega = scene.drive->rate_rad_per_s();
+  const double stiffness_N_per_m = dynamic_stiffness_N_per_m(plant, omega);
+  for (const double ratio : plant.target_ratios(*scene.controller)) {
+    for (const scene::SpeedPoint& point : scene.sliding.profile) {
+      const double speed_m_per_s = std::abs(point.velocity_m_per_s);
+      if (ratio >= 1.0 || speed_m_per_s < design.speed_floor_m_per_s()) {
+        continue;
+      }
+      const double vibration_m = map.velocity_m_per_s(ratio, speed_m_per_s) / omega;
+      const double spring_N = plant.contact_stiffness_N_per_m * vibration_m;
+      const double friction_N =
+          spring_N > 0.0 ? std::min(spring_N, plant.friction_N) : plant.friction_N;
+      if (friction_N > light_friction * stiffness_N_per_m * vibration_m) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -63,8 +93,9 @@ void design_supervision(const scene::Scene& scene, const NominalPlant& plant,
   design.settling_patience_periods =
       whole_periods(holds * design.hold_periods + patience_margin + building_up);
   design.maps_friction = has_true_map(scene, plant);
+  design.estimates_mismatch = design.maps_friction && vibrates_freely(scene, plant, design);
   const bool tells =  // a force that is held is right with any friction
-      design.maps_friction && !design.holds_force &&
+      design.estimates_mismatch && !design.holds_force &&
       std::visit([](const auto& mode) { return mode.tells_mismatch(); }, design.vibration);
   design.agreement = tells ? 1.0 / scene.controller->mismatch_warning : 0.0;
 }

@@ -41,7 +41,7 @@ StepMeter::StepMeter(const scene::Scene& scene, const configure::ControlDesign& 
     : cursor_(scene),
       unit_(target_unit(scene)),
       band_(scene.run.settling_band),
-      tells_mismatch_(scene.sensor.force && design.maps_friction),
+      tells_mismatch_(scene.sensor.force && design.estimates_mismatch),
       senses_force_(scene.sensor.force),
       observes_vibration_(scene.sensor.vibration),
       resonant_(scene.resonant()),
