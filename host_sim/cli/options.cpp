@@ -11,6 +11,7 @@
 #include "host_sim/output/program.hpp"
 #include "host_sim/process/checksum.hpp"
 #include "host_sim/process/printable.hpp"
+#include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/echo.hpp"
 
@@ -125,10 +126,9 @@ std::string check_whole(const std::string& text, std::uint64_t least, std::uint6
 }
 
 void add_threads_option(CLI::App& command, unsigned& threads) {
-  constexpr std::uint64_t most_threads = 1024;
   command.add_option("--threads", threads, "At most so many threads [one for each core]")
       ->type_name("N")
-      ->check([](const std::string& number) { return check_whole(number, 1, most_threads); });
+      ->check([](const std::string& number) { return check_whole(number, 1, runs::most_threads); });
 }
 
 std::string report_line(const std::filesystem::path& out) {

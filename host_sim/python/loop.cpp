@@ -17,6 +17,7 @@
 #include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/loop/stepped.hpp"
 #include "host_sim/python/answer.hpp"
+#include "host_sim/python/arguments.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/pickled.hpp"
 #include "host_sim/python/scene.hpp"
@@ -188,8 +189,8 @@ py::dict info_of(const Loop& loop) {
   return info;
 }
 
-py::tuple reset(Loop& loop, std::optional<std::uint64_t> seed, const py::object& /*options*/) {
-  loop.reset(seed);
+py::tuple reset(Loop& loop, const std::optional<py::object>& seed, const py::object& /*options*/) {
+  loop.reset(seed ? std::optional(seed_of(*seed)) : std::nullopt);
   return py::make_tuple(observation_of(loop), info_of(loop));
 }
 
@@ -219,7 +220,7 @@ void add_loop(py::module_& module) {
            "target  friction ratio that the controller is given, above 0, at most 1; of a scene\n"
            "        with target_friction_force_N a force [N], at most sensor.force_full_scale_N;\n"
            "        None: as before, and until the first one the steps of the scene, or its\n"
-           "        texture\n\n"
+           "        texture. The controller is given it at the end of the carrier period\n\n"
            "reward      -|friction ratio of the period - the one that the scene wants|; of target\n"
            "            forces -|mean friction force along the sliding - the wanted one| [N]\n"
            "terminated  a fault has switched the drive off\n"

@@ -14,6 +14,7 @@
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
+#include "host_sim/output/output_folder.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
 
@@ -45,15 +46,18 @@ std::map<std::string, std::string> configure(const Scene& scene,
 }
 
 /// @param version  absent: the first of them
-/// @param folder   of the engine
-py::bytes fmu(const Scene& scene, const std::string& kind,
-              const std::optional<std::string>& version, const std::filesystem::path& folder) {
+/// @param engine   its folder
+void fmu(const Scene& scene, const std::string& kind, const std::optional<std::string>& version,
+         const std::filesystem::path& engine, const std::filesystem::path& path) {
   const loop::Kind what = named(loop::kinds, "kind", kind);
   const fmi::Version interface =
       version ? named(fmi::versions, "fmi", *version) : fmi::versions.front().value;
   loop::require_usable(scene.experiment.plant, what);
-  return fmi::make_fmu(scene.experiment.nominal, what, interface, fmi::find_parts(folder),
-                       "sonoglide " SONOGLIDE_VERSION);
+  const std::string name = path.filename().string();
+  output::OutputFolder folder(std::filesystem::absolute(path).parent_path(), {name});
+  folder.write(name, fmi::make_fmu(scene.experiment.nominal, what, interface,
+                                   fmi::find_parts(engine), "sonoglide " SONOGLIDE_VERSION));
+  folder.commit();
 }
 
 }  // namespace

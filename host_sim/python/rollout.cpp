@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/python/arguments.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
 #include "host_sim/runs/rollouts.hpp"
@@ -62,7 +63,8 @@ void require_shape(const Array& array, const char* name, std::size_t rows, std::
 }
 
 Table rollout(const py::tuple& kept, const std::optional<GivenTable>& targets,
-              const std::optional<Table>& out, unsigned threads) {
+              const std::optional<Table>& out, const py::object& threads) {
+  const unsigned most_threads = thread_limit(threads);
   const Scenes each = scenes_of(kept);
   const std::size_t periods = periods_of_all(each);
   if (targets) {
@@ -78,7 +80,7 @@ Table rollout(const py::tuple& kept, const std::optional<GivenTable>& targets,
                    ratios.mutable_data() + i * periods});
   }
   const py::gil_scoped_release released;
-  runs::run_rollouts(all, threads);
+  runs::run_rollouts(all, most_threads);
   return ratios;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host_sim/process/scratch_folder.hpp"
+#include "host_sim/python/arguments.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
 #include "host_sim/runs/run_many.hpp"
@@ -31,14 +32,6 @@ namespace py = pybind11;
 
 /// What the command writes: its JSON, and a scene; empty where there is none.
 using Found = std::pair<std::string, std::string>;
-
-/// @param given, allowed  of an argument; `is_allowed` is false: it is refused
-template <class Given>
-void require(bool is_allowed, const char* name, const Given& given, const std::string& allowed) {
-  if (!is_allowed) {
-    throw py::value_error(fmt::format("{} is {}; allowed: {}", name, given, allowed));
-  }
-}
 
 Found identify_friction(const scene_file::Source& readings, const std::vector<std::string>& laws) {
   namespace friction = identify::friction;
@@ -88,16 +81,15 @@ Found commission_unit(const std::string& device, const Scene& scene) {
   return {text_of(identify::to_json(found.fit.identification)), found.scene};
 }
 
-Found find_worst(const Scene& scene, std::size_t samples, std::size_t search, std::uint64_t seed,
-                 unsigned threads) {
-  require(samples > 0 && samples <= robust::most_samples, "samples", samples,
-          fmt::format("1 to {}", robust::most_samples));
-  require(search <= robust::most_samples, "search", search,
-          fmt::format("0 to {}", robust::most_samples));
+Found find_worst(const Scene& scene, const py::object& samples, const py::object& search,
+                 const py::object& seed, const py::object& threads) {
+  const robust::Counts counts{integer(samples, "samples", 1, robust::most_samples),
+                              integer(search, "search", 0, robust::most_samples), seed_of(seed)};
+  const unsigned most_threads = thread_limit(threads);
   const py::gil_scoped_release released;
-  const robust::Task task(scene.source, scene.overrides, {samples, search, seed});
+  const robust::Task task(scene.source, scene.overrides, counts);
   const process::ScratchFolder folder(std::filesystem::temp_directory_path());
-  const runs::ThreadLimit limit(threads);
+  const runs::ThreadLimit limit(most_threads);
   robust::check_samples(task, {0, task.counts().samples});
   robust::Solver solver(task, folder.path(), "sonoglide", {});
   const robust::Study found = solver.solve({});

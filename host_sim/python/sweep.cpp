@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/control/interface/names.hpp"
+#include "host_sim/python/arguments.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
 #include "host_sim/studies/sweep/plan.hpp"
@@ -86,13 +87,15 @@ py::dict sweep_columns(const sweep::Plan& plan, const std::vector<sweep::PointRe
 }
 
 /// @param vary  as options --vary of the command
-py::dict sweep_scene(const Scene& scene, const std::vector<std::string>& vary, unsigned threads) {
+py::dict sweep_scene(const Scene& scene, const std::vector<std::string>& vary,
+                     const py::object& threads) {
+  const unsigned most_threads = thread_limit(threads);
   std::optional<sweep::Plan> plan;
   std::vector<sweep::PointResult> rows;
   {
     const py::gil_scoped_release released;
     plan.emplace(scene.source, scene.overrides, vary);
-    rows = sweep::compute_rows(*plan, threads);
+    rows = sweep::compute_rows(*plan, most_threads);
   }
   return sweep_columns(*plan, rows);
 }

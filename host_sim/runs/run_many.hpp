@@ -14,6 +14,8 @@
 
 namespace sonoglide::runs {
 
+inline constexpr unsigned most_threads = 1024;
+
 /// While it lives, work is done on at most so many threads; 0: one for each core.
 class ThreadLimit {
  public:

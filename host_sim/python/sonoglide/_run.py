@@ -152,7 +152,9 @@ def rollout(
     scenes   a Scene, or several that last equally many carrier periods. Closed loops that the scene's
              solver.tolerance of 1e-6 or more allows run in SIMD lanes.
     targets  a row for each rollout, a target friction ratio for each carrier period, 0 to 1; 0: as
-             before, and until the first other one the steps of the scene. None: those
+             before, and until the first other one the steps of the scene. None: those. The controller
+             is given it at the end of the carrier period: a step of the scene at the beginning of
+             period k is in column k - 1
     out      float64 array that takes the ratios; None: a new one
     threads  0: one for each core
 

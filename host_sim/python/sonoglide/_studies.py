@@ -208,10 +208,10 @@ def fmu(scene: Scene, kind: str, path: str | PathLike[str], fmi: str | int | Non
     `sonoglide fmu`.
 
     kind  'plant', 'controller' or 'loop'
-    path  of the file, which ends in .fmu
+    path  of the file, which ends in .fmu; a file there that no earlier call wrote is not replaced,
+          a folder that is missing is made
     fmi   version of the interface: 3 or 2
     """
     if Path(path).suffix != ".fmu":
         raise ValueError(f"path is {str(path)!r}; allowed: a file that ends in .fmu")
-    archive = _core.fmu(scene, kind, None if fmi is None else str(fmi), Path(__file__).parent / "engine")
-    Path(path).write_bytes(archive)
+    _core.fmu(scene, kind, None if fmi is None else str(fmi), Path(__file__).parent / "engine", Path(path))

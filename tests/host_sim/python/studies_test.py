@@ -222,8 +222,39 @@ def test_an_fmu_of_another_kind_is_refused(scene, tmp_path):
         sonoglide.fmu(scene("target_step"), "sensor", tmp_path / "a.fmu")
     with pytest.raises(ValueError, match="ends in .fmu"):
         sonoglide.fmu(scene("target_step"), "loop", tmp_path / "a.zip")
-    with pytest.raises(FileNotFoundError):
-        sonoglide.fmu(scene("target_step"), "loop", tmp_path / "nowhere" / "a.fmu")
+
+
+def test_an_fmu_replaces_its_own_alone(scene, tmp_path):
+    path = tmp_path / "new" / "a.fmu"
+    for _ in range(2):
+        sonoglide.fmu(scene("target_step"), "plant", path)
+    path.write_text("mine")
+    with pytest.raises(OSError, match="was not written by an earlier run"):
+        sonoglide.fmu(scene("target_step"), "plant", path)
+    assert path.read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    "argument, given, allowed",
+    [
+        ("samples", -1, "1 to 1000000"),
+        ("search", -1, "0 to 1000000"),
+        ("seed", 2**63, "0 to 9223372036854775807"),
+        ("seed", -1, "0 to 9223372036854775807"),
+        ("threads", 1025, "0 to 1024"),
+    ],
+)
+def test_an_integer_out_of_range_is_refused(scene, argument, given, allowed):
+    read = scene("robust_step")
+    with pytest.raises(ValueError, match=f"{argument} is {given}; allowed: {allowed}"):
+        sonoglide.robust(read, **{argument: given})
+    if argument == "threads":
+        for study in (lambda: sonoglide.rollout(read, threads=given), lambda: sonoglide.sweep(read, {}, threads=given)):
+            with pytest.raises(ValueError, match=f"threads is {given}; allowed: {allowed}"):
+                study()
+    if argument == "seed":
+        with pytest.raises(ValueError, match=f"seed is {given}; allowed: {allowed}"):
+            sonoglide.Loop(scene("target_step")).reset(seed=given)
 
 
 def test_what_a_study_comes_to_can_be_pickled():
