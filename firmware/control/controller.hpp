@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "firmware/control/interface/ratio.hpp"
 #include "firmware/control/parts.hpp"
 #include "firmware/numeric/scalar.hpp"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/boards/emulated/controller_header.hpp"
 #include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/options.hpp"
-#include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/output/gnuplot.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/emulated/image.hpp"
-#include "host_sim/emulated/unit_image.hpp"
+#include "host_sim/boards/emulated/controller_header.hpp"
+#include "host_sim/boards/emulated/image.hpp"
+#include "host_sim/boards/emulated/unit_image.hpp"
 #include "host_sim/long_work/slurm.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/printable.hpp"

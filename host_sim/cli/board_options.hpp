@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/unit_image.hpp"
 #include "host_sim/cli/options.hpp"
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/unit_image.hpp"
 
 namespace sonoglide::cli {
 

@@ -5,7 +5,7 @@
 #include "host_sim/cli/options.hpp"
 #include "host_sim/long_work/collection.hpp"
 #include "host_sim/long_work/slurm.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
@@ -181,7 +181,7 @@ std::string write_job(const Job& job, const std::filesystem::path& out) {
   }
   command.insert(command.end(), job.options.begin(), job.options.end());
   command.insert(command.end(), {"--out", folder.string(), "--quiet"});
-  output::OutputFolder files(folder);
+  process::OutputFolder files(folder);
   files.write(scene, job.source.text);
   files.write(script, long_work::slurm_script(command, job.shards, folder));
   files.commit();

@@ -15,10 +15,10 @@
 #include <variant>
 #include <vector>
 
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/unit_image.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/usage.hpp"
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/scene_file/keys.hpp"
 #include "host_sim/studies/identify/friction/candidate.hpp"
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
+#include "host_sim/boards/emulated/controller_header.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
@@ -27,7 +27,7 @@ void configure(const ConfigureOptions& options) {
   const SceneInput input(options.scene);
   const experiment::Experiment experiment = input.read();
   const std::filesystem::path out = output_folder(options.out, experiment.plant.name);
-  output::OutputFolder folder(out);
+  process::OutputFolder folder(out);
   folder.write(emulated::controller_header_name,
                input.with_places([&] { return emulated::controller_header(experiment); }));
   if (options.plant.empty()) {

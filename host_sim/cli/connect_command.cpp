@@ -8,19 +8,19 @@
 #include <string>
 #include <utility>
 
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/emulated_unit.hpp"
+#include "host_sim/boards/emulated/image.hpp"
+#include "host_sim/boards/emulated/unit_image.hpp"
+#include "host_sim/boards/unit/console.hpp"
+#include "host_sim/boards/unit/unit_link.hpp"
 #include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/program.hpp"
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/emulated_unit.hpp"
-#include "host_sim/emulated/image.hpp"
-#include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/process/serial_port.hpp"
-#include "host_sim/unit/console.hpp"
-#include "host_sim/unit/unit_link.hpp"
 
 namespace sonoglide::cli {
 namespace {

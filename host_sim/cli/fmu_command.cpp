@@ -10,7 +10,7 @@
 #include "host_sim/cli/run_watch.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
 #include "host_sim/loop/stepped.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 
 namespace sonoglide::cli {
@@ -31,7 +31,7 @@ void write(const FmuOptions& options) {
   const loop::Kind kind = *scene::value_of(loop::kinds, options.kind);
   input.with_places([&] { loop::require_usable(scene, kind); });
   const std::filesystem::path out = std::filesystem::absolute(options.out);
-  output::OutputFolder folder(out.parent_path(), {out.filename().string()});
+  process::OutputFolder folder(out.parent_path(), {out.filename().string()});
   const fmi::Parts parts = fmi::find_parts(fmi::folder_of_program());
   folder.write(
       out.filename().string(),

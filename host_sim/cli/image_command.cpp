@@ -5,17 +5,17 @@
 #include <memory>
 #include <string>
 
+#include "host_sim/boards/emulated/controller_header.hpp"
+#include "host_sim/boards/emulated/emulated_unit.hpp"
+#include "host_sim/boards/emulated/image.hpp"
+#include "host_sim/boards/emulated/unit_image.hpp"
 #include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/emulated/emulated_unit.hpp"
-#include "host_sim/emulated/image.hpp"
-#include "host_sim/emulated/unit_image.hpp"
 #include "host_sim/loop/step_forecast.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::cli {
@@ -146,7 +146,7 @@ void image(const ImageOptions& options) {
   const std::filesystem::path path = path_of(options, experiment.plant.name, file);
   const std::filesystem::path absolute = std::filesystem::absolute(path);
   const std::string name = absolute.filename().string();
-  output::OutputFolder folder(absolute.parent_path(), {name});
+  process::OutputFolder folder(absolute.parent_path(), {name});
   const std::filesystem::path built = input.with_places(
       [&] { return emulated::build_unit(board, header, options.encoder_counts_per_m); });
   const emulated::ImageCost cost = emulated::measure_image(built, board);

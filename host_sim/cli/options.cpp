@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/program.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/process/checksum.hpp"
 #include "host_sim/process/printable.hpp"
-#include "host_sim/runs/run_many.hpp"
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/scene_file/document.hpp"
 #include "host_sim/scene_file/echo.hpp"
 
@@ -128,7 +128,8 @@ std::string check_whole(const std::string& text, std::uint64_t least, std::uint6
 void add_threads_option(CLI::App& command, unsigned& threads) {
   command.add_option("--threads", threads, "At most so many threads [one for each core]")
       ->type_name("N")
-      ->check([](const std::string& number) { return check_whole(number, 1, runs::most_threads); });
+      ->check(
+          [](const std::string& number) { return check_whole(number, 1, process::most_threads); });
 }
 
 std::string report_line(const std::filesystem::path& out) {

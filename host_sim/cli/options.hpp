@@ -13,7 +13,8 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/study_report.hpp"
+#include "host_sim/process/output_folder.hpp"
 
 namespace sonoglide::cli {
 
@@ -116,7 +117,7 @@ template <class Compute, class Report>
 void run_study(const StudyOptions& options, const std::filesystem::path& out,
                const std::vector<std::string>& files, const Compute& compute,
                const Report& report) {
-  { const output::OutputFolder probe(out, files); }
+  { const process::OutputFolder probe(out, files); }
   const output::StudyReport found = report(with_bar(options.quiet, compute));
   output::write(out, found);
   if (!options.quiet) {

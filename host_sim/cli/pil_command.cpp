@@ -8,14 +8,14 @@
 #include <memory>
 #include <string>
 
+#include "host_sim/boards/emulated/board_limits.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/controller_header.hpp"
+#include "host_sim/boards/emulated/run_image.hpp"
 #include "host_sim/cli/board_options.hpp"
 #include "host_sim/cli/options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_watch.hpp"
-#include "host_sim/emulated/board_limits.hpp"
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/step_forecast.hpp"
 #include "host_sim/process/serial_port.hpp"

@@ -13,15 +13,15 @@
 #include <system_error>
 #include <vector>
 
+#include "host_sim/boards/emulated/lockstep_image.hpp"
 #include "host_sim/cli/usage.hpp"
-#include "host_sim/emulated/lockstep_image.hpp"
 #include "host_sim/long_work/collection.hpp"
 #include "host_sim/long_work/slurm.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/program.hpp"
 #include "host_sim/process/ending.hpp"
 #include "host_sim/process/file_error.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/scene_file/scene_error.hpp"

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/process/checksum.hpp"
-#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::fmi {
 namespace {
@@ -24,7 +24,7 @@ std::string content_of(const std::filesystem::path& path) {
 }  // namespace
 
 Resources make_resources(const scene::Scene& scene, loop::Kind kind, const std::string& engine) {
-  Resources made{scene_file::to_toml(scene_file::to_json(scene)), kind, {}};
+  Resources made{experiment::text_of(scene), kind, {}};
   process::ContentHash hash;
   hash.add(engine);
   hash.add(made.scene);

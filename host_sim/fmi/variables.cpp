@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene/names.hpp"
-#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::fmi {
 namespace {
@@ -196,7 +196,7 @@ void add_parameters(List& list, const scene::Scene& scene, loop::Kind kind) {
     std::string description = "Key " + name + " of the scene";
     list.add({std::move(name), Role::parameter, unit_of(key), std::move(description), start});
   };
-  const auto echo = scene_file::to_json(scene);
+  const auto echo = experiment::echo_of(scene);
   for (const auto& [table, values] : echo.items()) {
     for (const auto& [key, value] : values.items()) {
       if (!is_parameter(table, key, kind)) {

@@ -5,7 +5,7 @@
 
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/loop/watch.hpp"

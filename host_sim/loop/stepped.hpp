@@ -7,7 +7,7 @@
 
 #include "hal/board.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/scene/names.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "host_sim/runs/run_many.hpp"
+#include "host_sim/process/thread_limit.hpp"
 
 namespace sonoglide::python {
 
@@ -36,7 +36,7 @@ inline std::uint64_t integer(const pybind11::object& given, const char* name, st
 
 /// 0: one for each core.
 inline unsigned thread_limit(const pybind11::object& given) {
-  return static_cast<unsigned>(integer(given, "threads", 0, runs::most_threads));
+  return static_cast<unsigned>(integer(given, "threads", 0, process::most_threads));
 }
 
 /// As `sensor.seed` and `--seed` allow.

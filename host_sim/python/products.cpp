@@ -11,10 +11,10 @@
 #include <optional>
 #include <string>
 
+#include "host_sim/boards/emulated/controller_header.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/emulated/controller_header.hpp"
 #include "host_sim/fmi/archive/make_fmu.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
 
@@ -54,7 +54,7 @@ void fmu(const Scene& scene, const std::string& kind, const std::optional<std::s
       version ? named(fmi::versions, "fmi", *version) : fmi::versions.front().value;
   loop::require_usable(scene.experiment.plant, what);
   const std::string name = path.filename().string();
-  output::OutputFolder folder(std::filesystem::absolute(path).parent_path(), {name});
+  process::OutputFolder folder(std::filesystem::absolute(path).parent_path(), {name});
   folder.write(name, fmi::make_fmu(scene.experiment.nominal, what, interface,
                                    fmi::find_parts(engine), "sonoglide " SONOGLIDE_VERSION));
   folder.commit();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/python/arguments.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
@@ -80,7 +81,8 @@ Table rollout(const py::tuple& kept, const std::optional<GivenTable>& targets,
                    ratios.mutable_data() + i * periods});
   }
   const py::gil_scoped_release released;
-  runs::run_rollouts(all, most_threads);
+  const process::ThreadLimit limit(most_threads);
+  runs::run_rollouts(all);
   return ratios;
 }
 

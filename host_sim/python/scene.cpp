@@ -9,7 +9,6 @@
 
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/python/bindings.hpp"
-#include "host_sim/scene_file/echo.hpp"
 
 namespace sonoglide::python {
 
@@ -55,10 +54,9 @@ void add_scene(py::module_& module) {
                              [](const Scene& scene) { return scene.experiment.nominal.name; })
       .def_property_readonly(
           "json",
-          [](const Scene& scene) { return text_of(scene_file::to_json(scene.experiment.nominal)); })
-      .def_property_readonly("toml", [](const Scene& scene) {
-        return scene_file::to_toml(scene_file::to_json(scene.experiment.nominal));
-      });
+          [](const Scene& scene) { return text_of(experiment::echo_of(scene.experiment.nominal)); })
+      .def_property_readonly(
+          "toml", [](const Scene& scene) { return experiment::text_of(scene.experiment.nominal); });
 }
 
 }  // namespace sonoglide::python

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "host_sim/process/scratch_folder.hpp"
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/python/arguments.hpp"
 #include "host_sim/python/bindings.hpp"
 #include "host_sim/python/scene.hpp"
-#include "host_sim/runs/run_many.hpp"
 #include "host_sim/studies/commission/commission.hpp"
 #include "host_sim/studies/design/report.hpp"
 #include "host_sim/studies/identify/friction/comparison.hpp"
@@ -89,7 +89,7 @@ Found find_worst(const Scene& scene, const py::object& samples, const py::object
   const py::gil_scoped_release released;
   const robust::Task task(scene.source, scene.overrides, counts);
   const process::ScratchFolder folder(std::filesystem::temp_directory_path());
-  const runs::ThreadLimit limit(most_threads);
+  const process::ThreadLimit limit(most_threads);
   robust::check_samples(task, {0, task.counts().samples});
   robust::Solver solver(task, folder.path(), "sonoglide", {});
   const robust::Study found = solver.solve({});

@@ -13,7 +13,7 @@
 #include "hal/board.hpp"
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/plant/snapshot.hpp"
 #include "host_sim/python/answer.hpp"
 #include "host_sim/python/bindings.hpp"

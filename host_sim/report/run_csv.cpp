@@ -8,7 +8,7 @@
 
 #include "firmware/control/interface/names.hpp"
 #include "firmware/numeric/float_format.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/report/words.hpp"
 #include "host_sim/scene/names.hpp"
 

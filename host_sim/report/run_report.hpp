@@ -8,8 +8,8 @@
 #include <string>
 
 #include "host_sim/loop/run.hpp"
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/report/run_csv.hpp"
 #include "host_sim/report/run_findings.hpp"
 #include "host_sim/scene/scene.hpp"
@@ -47,7 +47,7 @@ class RunReport {
 
  private:
   const configure::Experiment& experiment_;
-  output::OutputFolder folder_;
+  process::OutputFolder folder_;
   RunFindings findings_;
   std::optional<PeriodsCsv> periods_;
   std::optional<TraceCsv> trace_;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host_sim/configure/plant_scales.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/engine.hpp"
 #include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/plant/period_drive.hpp"

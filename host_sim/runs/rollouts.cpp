@@ -92,11 +92,10 @@ std::size_t whole_periods(const scene::Scene& scene) {
   return grid.count() - (grid.is_whole(grid.count() - 1) ? 0 : 1);
 }
 
-void run_rollouts(const std::vector<Rollout>& rollouts, unsigned threads) {
+void run_rollouts(const std::vector<Rollout>& rollouts) {
   for (std::size_t i = 0; i < rollouts.size(); ++i) {
     require_targets(rollouts[i], i);
   }
-  const ThreadLimit limit(threads);
   Places all(rollouts.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Calls calls = divide(all, [&](std::size_t place) {

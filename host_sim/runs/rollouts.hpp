@@ -26,10 +26,9 @@ std::size_t whole_periods(const scene::Scene& scene);
 /// the scene's tolerance is 1e-6 or more, and lanes can run it, they are as run_closed_loops
 /// has them. A rollout depends on its scene and targets alone, to the bit, whatever the number of
 /// threads.
-/// @param threads  0: one for each core
 /// @throws configure::ConfigurationError  as whole_periods(), and targets for a scene in open loop
 /// @throws std::invalid_argument  a target is out of range; nothing was computed then
 /// @throws loop::ComputationError  says which rollout, counted from 0
-void run_rollouts(const std::vector<Rollout>& rollouts, unsigned threads);
+void run_rollouts(const std::vector<Rollout>& rollouts);
 
 }  // namespace sonoglide::runs

@@ -1,7 +1,7 @@
 #include "host_sim/runs/run_many.hpp"
 
 #include <tbb/blocked_range.h>
-#include <tbb/info.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 #include <tbb/partitioner.h>
@@ -9,10 +9,6 @@
 #include <atomic>
 
 namespace sonoglide::runs {
-
-ThreadLimit::ThreadLimit(unsigned threads)
-    : limit_(tbb::global_control::max_allowed_parallelism,
-             threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency())) {}
 
 std::size_t thread_count() {
   return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -1,8 +1,6 @@
 /// Many independent runs at once: on threads, and in SIMD lanes those that suit them.
 #pragma once
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -13,17 +11,6 @@
 #include "host_sim/runs/batch/run_dahl_plants.hpp"
 
 namespace sonoglide::runs {
-
-inline constexpr unsigned most_threads = 1024;
-
-/// While it lives, work is done on at most so many threads; 0: one for each core.
-class ThreadLimit {
- public:
-  explicit ThreadLimit(unsigned threads);
-
- private:
-  tbb::global_control limit_;
-};
 
 /// Threads that work is done on now.
 std::size_t thread_count();

@@ -86,7 +86,7 @@ endforeach()
 sonoglide_feature_image(coulomb "\"dahl\"" "\"coulomb\"" "contact_stiffness_N_per_m = 0.056e6" "")
 # A natural mode at 2.01 carrier frequencies under a drive that ramps: the gain of the feedback adapts, unless the mode
 # loses a fifth of its free vibration in a period. The two dampings lie just beside that edge, so that the images
-# differ in this part alone, and there is no calibration: see host_sim/emulated/README.md.
+# differ in this part alone, and there is no calibration: see host_sim/boards/emulated/README.md.
 set(beside_multiple_part "stiffness_N_per_m = 133e6" "stiffness_N_per_m = 11.484e9\ndamping_N_s_per_m = 530.0"
   "max_force_amplitude_N = 1920.0" "max_force_amplitude_N = 6000.0"
   "max_force_slew_N_per_s = 10e6" "interpolation = \"linear\"" "calibration_s = 0.5e-3" "calibration_s = 0.0")

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "tests/boards/budget/table.hpp"
 
 namespace sonoglide::budget::budget_test {

@@ -1,5 +1,5 @@
 // What becomes of an emulator, and of who waits for it, when things go wrong.
-#include "host_sim/emulated/lockstep_image.hpp"
+#include "host_sim/boards/emulated/lockstep_image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "host_sim/process/pipe.hpp"
 
 namespace sonoglide::emulated::image_process_test {

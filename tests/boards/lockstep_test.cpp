@@ -15,19 +15,19 @@
 
 #include "firmware/control/interface/drive_command.hpp"
 #include "hal/lockstep/frame.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/lockstep_image.hpp"
+#include "host_sim/boards/emulated/run_image.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/lockstep_image.hpp"
-#include "host_sim/emulated/run_image.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/serial_port.hpp"
 #include "tested_boards.hpp"
+#include "tests/host_sim/boards/unit/terminal/pseudo_terminal.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"
-#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
 
 namespace sonoglide::emulated::lockstep_test {
 namespace {

@@ -11,7 +11,7 @@
 #include "firmware/numeric/float_format.hpp"
 #include "firmware/plant/outcome.hpp"
 #include "firmware/plant/state.hpp"
-#include "host_sim/loop/sensor.hpp"
+#include "host_sim/loop/control/sensor.hpp"
 #include "tests/common/constants/pi.hpp"
 
 namespace {

@@ -23,16 +23,16 @@
 #include <vector>
 
 #include "firmware/numeric/scalar.hpp"
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/unit/console.hpp"
+#include "host_sim/boards/unit/unit_link.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/scratch_folder.hpp"
 #include "host_sim/process/serial_port.hpp"
-#include "host_sim/unit/console.hpp"
-#include "host_sim/unit/unit_link.hpp"
 #include "monitor.hpp"
 #include "tested_boards.hpp"
-#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
+#include "tests/host_sim/boards/unit/terminal/pseudo_terminal.hpp"
 
 namespace sonoglide::emulated::timed_unit_test {
 namespace {

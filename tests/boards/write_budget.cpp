@@ -3,7 +3,7 @@
 #include <iostream>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "tests/boards/budget/table.hpp"
 
 namespace {

@@ -14,7 +14,7 @@
 
 #include "hal/board.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "trace_line.hpp"
 

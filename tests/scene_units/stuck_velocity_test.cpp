@@ -10,7 +10,7 @@
 #include "hal/board.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "tests/scene_units/agreement/scene_unit.hpp"
 

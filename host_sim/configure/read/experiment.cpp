@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "host_sim/configure/configuration_error.hpp"
+#include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/reader.hpp"
 
 namespace sonoglide::experiment {
@@ -69,6 +70,14 @@ Experiment read_text(std::string_view text, const std::string& file,
 
 Experiment read_file(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   return experiment::read(scene_file::read_source(path), overrides);
+}
+
+nlohmann::ordered_json echo_of(const scene::Scene& scene) {
+  return scene_file::to_json(scene);
+}
+
+std::string text_of(const scene::Scene& scene) {
+  return scene_file::to_toml(echo_of(scene));
 }
 
 }  // namespace sonoglide::experiment

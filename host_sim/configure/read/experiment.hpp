@@ -1,6 +1,8 @@
 /// Scene files whose controllers are designed: what every command begins with.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -34,5 +36,11 @@ Experiment read_text(std::string_view text, const std::string& file,
 Experiment read(const scene_file::Document& document,
                 const std::vector<scene_file::VariedValue>& values = {},
                 scene_file::UnusedKeys* unused = nullptr);
+
+/// The scene in JSON, a table each, as scene_file::to_json().
+nlohmann::ordered_json echo_of(const scene::Scene& scene);
+
+/// The scene as a file, from which it is read again.
+std::string text_of(const scene::Scene& scene);
 
 }  // namespace sonoglide::experiment

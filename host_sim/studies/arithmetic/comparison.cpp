@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <limits>
 
+#include "host_sim/boards/emulated/controller_header.hpp"
+#include "host_sim/boards/emulated/run_image.hpp"
 #include "host_sim/configure/configuration_error.hpp"
-#include "host_sim/emulated/controller_header.hpp"
-#include "host_sim/emulated/run_image.hpp"
 #include "host_sim/scene/names.hpp"
 
 namespace sonoglide::arithmetic {

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "firmware/control/interface/drive_command.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/loop/run_result.hpp"
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/scene/scene.hpp"
 

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/boards/emulated/controller_header.hpp"
+#include "host_sim/boards/unit/plant_traces.hpp"
+#include "host_sim/boards/unit/unit_link.hpp"
+#include "host_sim/boards/unit/unit_refusal.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "host_sim/process/printable.hpp"
 #include "host_sim/process/serial_port.hpp"
-#include "host_sim/unit/plant_traces.hpp"
-#include "host_sim/unit/unit_link.hpp"
-#include "host_sim/unit/unit_refusal.hpp"
 
 namespace sonoglide::commission {
 

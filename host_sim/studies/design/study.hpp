@@ -148,8 +148,8 @@ std::string allowed_ratios();
 std::string allowed_speeds();
 
 struct Task {
-  scene::Scene scene;          ///< closed loop: plant, contact and drive with its limit
-  scene::Scene stated;         ///< the same without true values
+  scene::Scene scene;   ///< closed loop: plant, contact and drive with its limit
+  scene::Scene stated;  ///< the same without true values
   /// Of its controller: slower, the drive is held.
   double speed_floor_m_per_s;
   /// Of its velocities: from here on the drive is held and then taken to zero.

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/studies/paper/figure_style.hpp"
 #include "host_sim/studies/paper/runs.hpp"
 
@@ -51,14 +51,14 @@ std::vector<Figure> compute(std::optional<int> wanted, const Progress& progress)
 
 void write_paper(const std::filesystem::path& out, std::optional<int> figure,
                  const Progress& progress) {
-  { const output::OutputFolder probe(out, file_names(figure)); }
+  { const process::OutputFolder probe(out, file_names(figure)); }
   const std::vector<Figure> figures = compute(figure, progress);
   Findings findings;
   if (!figure) {
     findings = {faults(), balances(), dither_claims()};
   }
   progress(1.0);
-  output::OutputFolder folder(out);
+  process::OutputFolder folder(out);
   for (const Figure& each : figures) {
     folder.write(fmt::format("figure_{:02}.csv", each.number), each.csv);
     folder.write(fmt::format("figure_{:02}.svg", each.number), output::print(sheet(each.charts)));

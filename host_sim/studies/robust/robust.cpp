@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/process/output_folder.hpp"
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/studies/robust/report.hpp"
@@ -29,7 +30,7 @@ constexpr const char* page_file = "report.html";
 void write_files(const Task& task, const Study& study, const fs::path& out,
                  const std::function<void()>& then) {
   const std::string page = output::to_html(robust_page(task, study));
-  output::OutputFolder folder(out);
+  process::OutputFolder folder(out);
   write_samples(folder.open(samples_file), task, study);
   write_search(folder.open(search_file), task, study);
   folder.write(figures_file, to_json(task, study).dump(2) + '\n');
@@ -41,9 +42,9 @@ void write_files(const Task& task, const Study& study, const fs::path& out,
 /// @param samples  that are known already, from the first on
 Outcome run(const Task& task, const fs::path& out, const std::string& program, unsigned threads,
             std::vector<PlantRow> samples, const long_work::Progress& progress) {
-  const runs::ThreadLimit limit(threads);
+  const process::ThreadLimit limit(threads);
   check_samples(task, {samples.size(), task.counts().samples});
-  output::create_folder(out, {samples_file, search_file, figures_file, worst_file, page_file});
+  process::create_folder(out, {samples_file, search_file, figures_file, worst_file, page_file});
   // Rows of another arithmetic, which an earlier program had, do not mix with these.
   Solver solver(task, out, fmt::format("{}, {}", program, batch::arithmetic), std::move(samples));
   const double begin_s = long_work::steady_time_s();
@@ -79,7 +80,7 @@ Outcome run_robust(const Task& task, const fs::path& out, const std::string& pro
 long_work::ShardSummary run_shard(const Task& task, const long_work::Shard& shard,
                                   const fs::path& folder, const std::string& program,
                                   unsigned threads, const long_work::Progress& progress) {
-  const runs::ThreadLimit limit(threads);
+  const process::ThreadLimit limit(threads);
   return long_work::run_shard(
       {work_of(task, program, shard.count), shard.number},
       [&task](const long_work::PointRange& samples, long_work::Pace&) {

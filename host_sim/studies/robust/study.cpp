@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/runs/run_many.hpp"
 #include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/scene_error.hpp"

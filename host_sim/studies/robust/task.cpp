@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "host_sim/scene_file/echo.hpp"
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/scene_file/reader.hpp"
 #include "host_sim/studies/robust/spread.hpp"
 
@@ -53,9 +53,8 @@ Task::Task(scene_file::Source source, std::vector<std::string> overrides, const 
       own_(read_own(stated_)),
       points_(scrambled_sobol(tolerances().size(), counts.samples, counts.seed)) {
   // The echo, so that a plant written as a scene file is the same one.
-  document_.emplace(
-      scene_file::Source{source_.file, scene_file::to_toml(scene_file::to_json(nominal()))},
-      std::vector<std::string>{}, true_keys(nominal()));
+  document_.emplace(scene_file::Source{source_.file, experiment::text_of(nominal())},
+                    std::vector<std::string>{}, true_keys(nominal()));
 }
 
 std::vector<std::string> Task::notes() const {
@@ -126,7 +125,7 @@ std::string Task::plant_text(const Factors& factors) const {
   scene::Scene stated = nominal();
   stated.tolerances.clear();
   stated.true_values = read_plant(factors).true_values;
-  return scene_file::to_toml(scene_file::to_json(stated));
+  return experiment::text_of(stated);
 }
 
 }  // namespace sonoglide::robust

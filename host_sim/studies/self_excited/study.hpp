@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host_sim/loop/steady/self_excitation.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/scene/scene.hpp"
 
 namespace sonoglide::self_excited {

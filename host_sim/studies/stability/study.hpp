@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/stability/stability_map.hpp"
 #include "host_sim/studies/stability/trial.hpp"
 

@@ -12,6 +12,7 @@
 #include "firmware/numeric/turn.hpp"
 #include "host_sim/loop/plant/carrier_grid.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/report/texture_metrics.hpp"
 #include "host_sim/report/words.hpp"
@@ -234,7 +235,7 @@ runs::Places Solve::over_lanes(const runs::Places& points, const Sink& sink) con
 }
 
 std::vector<PointResult> compute_rows(const Plan& plan, unsigned threads) {
-  const runs::ThreadLimit limit(threads);
+  const process::ThreadLimit limit(threads);
   const Solve solve(plan, plan.all(), nullptr);
   std::vector<PointResult> rows(plan.grid().size());
   runs::Places all(rows.size());

@@ -9,9 +9,10 @@
 #include "host_sim/long_work/collection.hpp"
 #include "host_sim/long_work/journal.hpp"
 #include "host_sim/output/gnuplot.hpp"
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
 #include "host_sim/output/program.hpp"
+#include "host_sim/process/output_folder.hpp"
+#include "host_sim/process/thread_limit.hpp"
 #include "host_sim/runs/batch/run_dahl_plants.hpp"
 #include "host_sim/scene_file/echo.hpp"
 #include "host_sim/studies/sweep/free_vibration.hpp"
@@ -57,7 +58,7 @@ void write_files(const Plan& plan, const std::vector<PointResult>& rows, const f
   const std::optional<output::Sheet> picture = sweep::picture(plan, rows);
   const std::string svg = picture ? output::print(*picture) : std::string();
   const std::string page = output::to_html(sweep_page(plan, rows, picture));
-  output::OutputFolder folder(out);
+  process::OutputFolder folder(out);
   write_csv(folder.open(table_file), plan, rows);
   folder.write(page_file, page);
   if (picture) {
@@ -88,7 +89,7 @@ MergeSummary merge(const Plan& plan, const Records& records, const fs::path& out
     write_files(plan, rows, out, then);
     return summary;
   }
-  output::OutputFolder files(out, {table_file, page_file, picture_file});
+  process::OutputFolder files(out, {table_file, page_file, picture_file});
   std::ostream& table = files.open(table_file);
   write_heading(table, plan);
   for_each_row(
@@ -103,14 +104,14 @@ MergeSummary merge(const Plan& plan, const Records& records, const fs::path& out
 
 Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& program,
                   unsigned threads, const long_work::Progress& progress) {
-  const runs::ThreadLimit limit(threads);
+  const process::ThreadLimit limit(threads);
   const double begin_s = long_work::steady_time_s();
   long_work::Pace pace(progress);
   const Solve solve(plan, plan.all(), &pace);
   if (!drawn_axes(plan.grid()).empty() && drawn_axes(plan.grid()).size() <= 2) {
     output::require_gnuplot();
   }
-  output::create_folder(out, {table_file, page_file, picture_file});
+  process::create_folder(out, {table_file, page_file, picture_file});
   long_work::KeptPoints points(plan.all(),
                                {[&solve](const PointRange&, const runs::Places& open,
                                          const long_work::Sink& sink) { solve(open, sink); },
@@ -129,7 +130,7 @@ Summary run_sweep(const Plan& plan, const fs::path& out, const std::string& prog
 long_work::ShardSummary run_shard(const Plan& plan, const long_work::Shard& shard,
                                   const fs::path& folder, const std::string& program,
                                   unsigned threads, const long_work::Progress& progress) {
-  const runs::ThreadLimit limit(threads);
+  const process::ThreadLimit limit(threads);
   const auto check = [&plan](const PointRange& points, long_work::Pace& pace) {
     pace.begin(points.size(), 1.0 + expected_solving_cost(plan, points));
     plan.visit(

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/scene/scene.hpp"
 #include "host_sim/studies/work_precision/peers/contender.hpp"
 #include "host_sim/studies/work_precision/solvers.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "host_sim/emulated/controller_header.hpp"
+#include "host_sim/boards/emulated/controller_header.hpp"
 #include "tests/acceptance/program/program.hpp"
 
 namespace sonoglide::acceptance::configure_command_test {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "host_sim/process/pipe.hpp"
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
-#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
+#include "tests/host_sim/boards/unit/terminal/pseudo_terminal.hpp"
 
 namespace sonoglide::acceptance::pil_at_port_test {
 namespace {

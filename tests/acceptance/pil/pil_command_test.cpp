@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "image_cache.hpp"
 #include "tests/acceptance/program/program.hpp"
 

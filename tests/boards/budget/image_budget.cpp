@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/run_image.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/run_image.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "host_sim/process/child_process.hpp"
 #include "tests/common/csv/csv.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/image.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/image.hpp"
 #include "host_sim/loop/run_result.hpp"
 #include "tests/boards/budget/image_parts.hpp"
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::budget {

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 
 namespace sonoglide::budget {
 

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "host_sim/emulated/board_list.hpp"
-#include "host_sim/emulated/image.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/image.hpp"
 #include "host_sim/process/child_process.hpp"
 
 namespace sonoglide::budget {

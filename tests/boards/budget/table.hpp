@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/emulated/board_list.hpp"
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "tests/boards/budget/image_budget.hpp"
 
 namespace sonoglide::budget {

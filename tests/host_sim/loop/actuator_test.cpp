@@ -1,4 +1,4 @@
-#include "host_sim/loop/actuator.hpp"
+#include "host_sim/loop/control/actuator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
-#include "host_sim/loop/sensor.hpp"
+#include "host_sim/loop/control/control_port.hpp"
+#include "host_sim/loop/control/sensor.hpp"
 #include "host_sim/loop/stepped.hpp"
 #include "tests/common/table_1.hpp"
 #include "tests/host_sim/loop/logs/logged_run.hpp"

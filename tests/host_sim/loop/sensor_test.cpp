@@ -1,4 +1,4 @@
-#include "host_sim/loop/sensor.hpp"
+#include "host_sim/loop/control/sensor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 
 #include "host_sim/configure/configuration_error.hpp"
 #include "host_sim/loop/run.hpp"
+#include "host_sim/process/thread_limit.hpp"
 #include "tests/common/table_1.hpp"
 
 namespace sonoglide::runs::rollouts_test {
@@ -45,7 +46,8 @@ std::vector<Ratios> rolled_out(const std::vector<scene::Scene>& scenes, unsigned
     rollouts.push_back(
         {experiments.emplace_back(configure::make_experiment(scenes[i])), nullptr, rows[i].data()});
   }
-  run_rollouts(rollouts, threads);
+  const process::ThreadLimit limit(threads);
+  run_rollouts(rollouts);
   return rows;
 }
 
@@ -71,7 +73,7 @@ TEST(Rollouts, TargetsOf0LeaveTheScenesSteps) {
   const scene::Scene scene = closed_loop(1e-6);
   const std::vector<double> targets(whole_periods(scene), 0.0);
   Ratios ratios(targets.size());
-  run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}, 1);
+  run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}});
   EXPECT_EQ(ratios, as_run(scene));
 }
 
@@ -80,14 +82,12 @@ TEST(Rollouts, RefuseTargetsOutOfRangeAndInOpenLoop) {
   std::vector<double> targets(whole_periods(scene), 0.5);
   Ratios ratios(targets.size(), -1.0);
   targets.back() = 1.25;
-  EXPECT_THROW(
-      run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}, 1),
-      std::invalid_argument);
+  EXPECT_THROW(run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}),
+               std::invalid_argument);
   EXPECT_EQ(ratios.front(), -1.0);
   scene.controller.reset();
-  EXPECT_THROW(
-      run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}, 1),
-      configure::ConfigurationError);
+  EXPECT_THROW(run_rollouts({{configure::make_experiment(scene), targets.data(), ratios.data()}}),
+               configure::ConfigurationError);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "host_sim/runs/run_many.hpp"
+#include "host_sim/process/thread_limit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ std::optional<std::size_t> group_of(std::size_t place) {
 }
 
 TEST(RunMany, DividesByGroupsInSharesForTheThreads) {
-  const ThreadLimit limit(2);
+  const process::ThreadLimit limit(2);
   const Calls calls = divide(numbers(700), group_of);
   EXPECT_EQ(calls.alone.size(), 100U);
   Places seen = calls.alone;
@@ -40,7 +41,7 @@ TEST(RunMany, DividesByGroupsInSharesForTheThreads) {
 }
 
 TEST(RunMany, KeepsLanesBusyBeforeThreads) {
-  const ThreadLimit limit(64);
+  const process::ThreadLimit limit(64);
   const Calls calls = divide(numbers(40), [](std::size_t) { return std::optional(0); });
   ASSERT_EQ(calls.together.size(), 3U);
   EXPECT_EQ(calls.together.front().size(), 16U);

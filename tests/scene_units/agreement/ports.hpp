@@ -6,7 +6,7 @@
 #include "firmware/app/exchange.hpp"
 #include "firmware/control/controller.hpp"
 #include "hal/board.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 
 namespace sonoglide::app::scene_units_test {
 

@@ -23,7 +23,7 @@
 #include "hal/timed/volatile_pages.hpp"
 #include "host_sim/configure/control_design.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "tests/scene_units/agreement/ports.hpp"
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/boards/unit/tare.hpp"
+#include "host_sim/boards/unit/unit_scales.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/run.hpp"
-#include "host_sim/unit/tare.hpp"
-#include "host_sim/unit/unit_scales.hpp"
 #include "tests/scene_units/agreement/scene_unit.hpp"
 
 #include "target_step/controller_configuration.hpp"

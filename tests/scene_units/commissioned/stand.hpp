@@ -14,7 +14,7 @@
 #include "hal/timed/volatile_pages.hpp"
 #include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/run.hpp"
-#include "tests/host_sim/unit/terminal/pseudo_terminal.hpp"
+#include "tests/host_sim/boards/unit/terminal/pseudo_terminal.hpp"
 #include "tests/scene_units/agreement/period_board.hpp"
 #include "tests/scene_units/agreement/scene_unit.hpp"
 

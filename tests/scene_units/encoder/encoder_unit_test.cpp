@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/report/texture_metrics.hpp"
 #include "tests/scene_units/agreement/encoder.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/output/output_folder.hpp"
 #include "host_sim/output/page.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/studies/identify/friction/candidate.hpp"
 #include "host_sim/studies/identify/friction/law_problem.hpp"
 #include "host_sim/studies/identify/friction/readings.hpp"

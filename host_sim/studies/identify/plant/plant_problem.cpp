@@ -9,6 +9,7 @@
 #include <complex>
 #include <utility>
 
+#include "host_sim/configure/read/experiment.hpp"
 #include "host_sim/loop/plant/failure.hpp"
 #include "host_sim/scene_file/echo.hpp"
 #include "host_sim/scene_file/reader.hpp"
@@ -76,10 +77,9 @@ PlantProblem::PlantProblem(const configure::Experiment& nominal,
     : nominal_(nominal),
       stretches_(stretches),
       unknowns_(unknowns_of(nominal.nominal, force)),
-      document_(
-          scene_file::Source{nominal.nominal.name, scene_file::to_toml(scene_file::to_json(
-                                                       without_true_values(nominal.nominal)))},
-          {}, true_keys(unknowns_)) {}
+      document_(scene_file::Source{nominal.nominal.name,
+                                   experiment::text_of(without_true_values(nominal.nominal))},
+                {}, true_keys(unknowns_)) {}
 
 Eigen::Index PlantProblem::index_of(std::string_view key) const {
   const auto found = std::find_if(unknowns_.begin(), unknowns_.end(),

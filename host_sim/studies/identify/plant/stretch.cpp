@@ -6,7 +6,7 @@
 
 #include "firmware/numeric/scalar.hpp"
 #include "hal/board.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 
 namespace sonoglide::identify::plant {

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/output/study_report.hpp"
 #include "host_sim/report/step_metrics.hpp"
 #include "host_sim/studies/identify/identification.hpp"
 #include "host_sim/studies/identify/plant/stretch.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host_sim/cli/options.hpp"
-#include "host_sim/output/output_folder.hpp"
+#include "host_sim/process/output_folder.hpp"
 #include "host_sim/process/printable.hpp"
 #include "tests/acceptance/cli/samples/natural_mode.hpp"
 #include "tests/acceptance/cli/samples/sample_commands.hpp"
@@ -25,7 +25,7 @@ void natural_mode(const NaturalModeOptions& options) {
   const scene::Scene scene = input.read().plant;
   const std::string table = input.with_places([&] { return natural_mode::table(scene); });
   const std::filesystem::path out = output_folder(options.out, scene.name, "_natural_mode");
-  output::OutputFolder folder(out);
+  process::OutputFolder folder(out);
   folder.write("natural_mode.csv", table);
   folder.commit();
   if (!options.quiet) {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "host_sim/boards/emulated/board_list.hpp"
 #include "host_sim/configure/read/experiment.hpp"
-#include "host_sim/emulated/board_list.hpp"
 #include "host_sim/studies/arithmetic/comparison.hpp"
 #include "tests/common/csv/csv.hpp"
 

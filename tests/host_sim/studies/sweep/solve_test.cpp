@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "host_sim/process/thread_limit.hpp"
 #include "tests/host_sim/studies/sweep/scenes/base_scenes.hpp"
 #include "tests/host_sim/studies/sweep/scenes/scratch_scene.hpp"
 
@@ -95,7 +96,7 @@ TEST_F(SolveTest, LanesTakeTheOthersTogether) {
 }
 
 TEST_F(SolveTest, PointsOfOneLengthGoTogetherWhereverTheyAre) {
-  const runs::ThreadLimit limit(2);
+  const process::ThreadLimit limit(2);
   plan_for({"friction.coefficient=0.1:0.2:300", "run.duration_periods=30:31:2"});
   const runs::Calls calls = solve_->calls(all_);
   EXPECT_TRUE(calls.alone.empty());

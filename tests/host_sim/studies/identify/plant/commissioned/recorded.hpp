@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_sim/configure/experiment.hpp"
-#include "host_sim/loop/control_port.hpp"
+#include "host_sim/loop/control/control_port.hpp"
 #include "host_sim/loop/run.hpp"
 #include "host_sim/studies/identify/plant/stretch.hpp"
 
