@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "host_sim/configure/design_periods.hpp"
 #include "host_sim/configure/plant_scales.hpp"
@@ -30,33 +31,36 @@ bool has_true_map(const scene::Scene& scene, const NominalPlant& plant) {
          plant.friction_N < light_friction * scene.max_drive_force_N();
 }
 
-/// Under the drive that each target takes, friction along the vibration hardly slows it.
+/// Under the drive that a vibration takes, friction along it hardly slows it.
+bool moves_freely(const NominalPlant& plant, double vibration_m, double stiffness_N_per_m) {
+  constexpr double light_friction = 0.2;  // of the drive: it takes 3 % of the velocity
+  const double spring_N = plant.contact_stiffness_N_per_m * vibration_m;
+  const double friction_N =
+      spring_N > 0.0 ? std::min(spring_N, plant.friction_N) : plant.friction_N;
+  return friction_N <= light_friction * stiffness_N_per_m * vibration_m;
+}
+
+/// So does the vibration of each target at each speed.
 bool vibrates_freely(const scene::Scene& scene, const NominalPlant& plant,
                      const ControlDesign& design) {
   if (design.vibration_mode() != scene::VibrationMode::feedforward ||
       scene::vibration_of(scene.friction.law) != friction::Vibration::along) {
     return true;
   }
-  constexpr double light_friction = 0.2;  // of the drive: it takes 3 % of the velocity
   const VibrationMap map = design.vibration_map(plant.friction_N);
   const double omega = scene.drive->rate_rad_per_s();
   const double stiffness_N_per_m = dynamic_stiffness_N_per_m(plant, omega);
-  for (const double ratio : plant.target_ratios(*scene.controller)) {
-    for (const scene::SpeedPoint& point : scene.sliding.profile) {
-      const double speed_m_per_s = std::abs(point.velocity_m_per_s);
-      if (ratio >= 1.0 || speed_m_per_s < design.speed_floor_m_per_s()) {
-        continue;
-      }
-      const double vibration_m = map.velocity_m_per_s(ratio, speed_m_per_s) / omega;
-      const double spring_N = plant.contact_stiffness_N_per_m * vibration_m;
-      const double friction_N =
-          spring_N > 0.0 ? std::min(spring_N, plant.friction_N) : plant.friction_N;
-      if (friction_N > light_friction * stiffness_N_per_m * vibration_m) {
-        return false;
-      }
-    }
-  }
-  return true;
+  const std::vector<double> ratios = plant.target_ratios(*scene.controller);
+  const auto& profile = scene.sliding.profile;
+  return std::all_of(profile.begin(), profile.end(), [&](const scene::SpeedPoint& point) {
+    const double speed_m_per_s = std::abs(point.velocity_m_per_s);
+    return speed_m_per_s < design.speed_floor_m_per_s() ||
+           std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
+             return ratio >= 1.0 ||
+                    moves_freely(plant, map.velocity_m_per_s(ratio, speed_m_per_s) / omega,
+                                 stiffness_N_per_m);
+           });
+  });
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 constexpr const char* kNewFiles = "new";  // in the staging folder
 constexpr const char* kOldFiles = "old";
 /// Other programs remove folders that they have made, where they fail: between a look and a step.
-constexpr int kMostTries = 100;
+constexpr int kMostTries = 1000;
 
 /// Absolute, links and ".." resolved as far as the path exists, without a trailing separator.
 fs::path normal(const fs::path& path) {
   if (path.empty()) {
-    throw process::FileError("the output folder has an empty name");
+    throw FileError("the output folder has an empty name");
   }
   std::error_code error;
   fs::path result;
@@ -31,7 +31,7 @@ fs::path normal(const fs::path& path) {
     result = fs::weakly_canonical(fs::absolute(path, error), error);
   } while (error == std::errc::no_such_file_or_directory && ++tries < kMostTries);
   if (error) {
-    process::fail(path, error);
+    fail(path, error);
   }
   return result.has_filename() ? result : result.parent_path();
 }
@@ -46,16 +46,16 @@ fs::path nearest_folder(const fs::path& path) {
       return candidate;
     }
     if (fs::exists(status)) {
-      process::fail(candidate, "is a file, not a folder");
+      fail(candidate, "is a file, not a folder");
     }
     if (status.type() == fs::file_type::none) {
-      process::fail(candidate, error);
+      fail(candidate, error);
     }
     if (fs::is_symlink(fs::symlink_status(candidate, error))) {
-      process::fail(candidate, "is a symbolic link to nothing");
+      fail(candidate, "is a symbolic link to nothing");
     }
     if (candidate == candidate.parent_path()) {
-      process::fail(path, "no parent folder exists");
+      fail(path, "no parent folder exists");
     }
     candidate = candidate.parent_path();
   }
@@ -67,7 +67,7 @@ std::vector<fs::path> create_parents(const fs::path& folder, int tries = 1) {
   std::error_code unknown;
   for (fs::path path = folder; !fs::exists(path, unknown); path = path.parent_path()) {
     if (unknown) {
-      process::fail(path, unknown);
+      fail(path, unknown);
     }
     missing.insert(missing.begin(), path);
   }
@@ -85,7 +85,7 @@ std::vector<fs::path> create_parents(const fs::path& folder, int tries = 1) {
       if (went && tries < kMostTries) {
         return create_parents(folder, tries + 1);
       }
-      process::fail(folder, error);
+      fail(folder, error);
     }
   }
   return missing;
@@ -139,9 +139,9 @@ OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string
   for (int tries = 1; !staging_; ++tries) {
     try {
       staging_.emplace(parent);
-    } catch (const process::ScratchError& error) {
+    } catch (const ScratchError& error) {
       if (tries == kMostTries) {
-        process::fail(target_, "cannot be written: " + error.reason());
+        fail(target_, "cannot be written: " + error.reason());
       }
       parent = nearest_folder(target_);
     }
@@ -149,7 +149,7 @@ OutputFolder::OutputFolder(const fs::path& target, const std::vector<std::string
   std::error_code error;
   if (!fs::create_directory(staging_->path() / kNewFiles, error) ||
       !fs::create_directory(staging_->path() / kOldFiles, error)) {
-    process::fail(target_, error);
+    fail(target_, error);
   }
 }
 
@@ -194,10 +194,9 @@ void OutputFolder::require_listed(const std::string& name) const {
   std::error_code absent;
   const fs::file_status status = fs::symlink_status(place, absent);
   if (fs::exists(status) && !fs::is_directory(status) && !WrittenFiles(target_).has(name)) {
-    process::fail(
-        place,
-        "was not written by an earlier run, or was changed since; allowed: another folder, or "
-        "that file out of the way");
+    fail(place,
+         "was not written by an earlier run, or was changed since; allowed: another folder, or "
+         "that file out of the way");
   }
 }
 
@@ -215,7 +214,7 @@ void OutputFolder::commit(const std::function<void()>& then) {
   for (auto& [name, file] : files_) {
     file->close();
   }
-  std::optional<process::Undisturbed> now;
+  std::optional<Undisturbed> now;
   if (then) {
     now.emplace();
   }
@@ -243,7 +242,7 @@ void OutputFolder::list_files() const {
 /// @return false where somebody else has made the folder, or removed its parent, meanwhile
 bool OutputFolder::place_new_folder() {
   list_files();
-  const process::Undisturbed now;
+  const Undisturbed now;
   const std::vector<fs::path> created = create_parents(target_.parent_path());
   std::error_code error;
   fs::rename(staging_->path() / kNewFiles, target_, error);
@@ -258,7 +257,7 @@ bool OutputFolder::place_new_folder() {
       std::error_code ignored;
       fs::remove(*path, ignored);
     }
-    process::fail(target_, error);
+    fail(target_, error);
   }
   return true;
 }
@@ -274,7 +273,7 @@ void OutputFolder::place_list(Moves& moves, bool is_first) const {
     fs::rename(from, to, error);
   }
   if (error) {
-    process::fail(to, error);
+    fail(to, error);
   }
 }
 
@@ -287,14 +286,14 @@ bool OutputFolder::replace_files() {
   }
   list_files();
   held.hold_next(new_file(WrittenFiles::file_name));
-  const process::Undisturbed now;
+  const Undisturbed now;
   Moves moves;
   place_list(moves, held.began());
   const auto clear_place = [&](const std::string& name) {
     require_listed(name);
     if (const std::error_code error =
             clear(moves, target_ / name, staging_->path() / kOldFiles / name)) {
-      process::fail(target_ / name, error);
+      fail(target_ / name, error);
     }
   };
   for (const std::string& name : withdrawn_) {
@@ -303,7 +302,7 @@ bool OutputFolder::replace_files() {
   for (const auto& [name, file] : files_) {
     clear_place(name);
     if (const std::error_code error = moves.move(new_file(name), target_ / name)) {
-      process::fail(target_ / name, error);
+      fail(target_ / name, error);
     }
   }
   moves.keep();

@@ -28,7 +28,7 @@ namespace sonoglide::process {
 class OutputFolder {
  public:
   /// @param names  of files that will be written or withdrawn, to be told of early that they cannot
-  /// @throws process::FileError if nothing can be written there; nothing has been changed then.
+  /// @throws FileError if nothing can be written there; nothing has been changed then.
   explicit OutputFolder(const std::filesystem::path& target,
                         const std::vector<std::string>& names = {});
   ~OutputFolder();
@@ -36,7 +36,7 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   /// Stages a whole file. @param name  a plain file name, used once.
-  /// @throws process::FileError if it cannot be written or there is another's file of that name,
+  /// @throws FileError if it cannot be written or there is another's file of that name,
   ///         std::invalid_argument for any other name.
   void write(const std::string& name, std::string_view content);
 
@@ -52,7 +52,7 @@ class OutputFolder {
   /// file of the same name is replaced. The list of what this program wrote there goes with them. Of
   /// several programs that do so at once one is the last, in every file.
   /// @param then  what belongs to it: no signal ends the program between
-  /// @throws process::FileError if a file could not be written or moved; the target is then as before.
+  /// @throws FileError if a file could not be written or moved; the target is then as before.
   void commit(const std::function<void()>& then = {});
 
   const std::filesystem::path& target() const { return target_; }
@@ -73,13 +73,13 @@ class OutputFolder {
   bool replace_files();
 
   std::filesystem::path target_;
-  std::optional<process::ScratchFolder> staging_;  ///< from the constructor on
+  std::optional<ScratchFolder> staging_;  ///< from the constructor on
   std::map<std::string, std::unique_ptr<StagedFile>> files_;
   std::set<std::string> withdrawn_;
 };
 
 /// Creates a folder once it is known that files of these names can be written to it.
-/// @throws process::FileError
+/// @throws FileError
 void create_folder(const std::filesystem::path& target, const std::vector<std::string>& names);
 
 }  // namespace sonoglide::process

@@ -20,9 +20,9 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 16U;
 FileBuffer::FileBuffer(const std::filesystem::path& file, std::filesystem::path target)
     : target_(std::move(target)), buffer_(buffer_bytes) {
   constexpr mode_t mode = 0666;
-  file_ = process::Descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+  file_ = Descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file_.number() < 0) {
-    process::fail(target_, std::generic_category().message(errno));
+    fail(target_, std::generic_category().message(errno));
   }
   setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
@@ -62,8 +62,7 @@ void FileBuffer::hand_over(const char* text, std::streamsize size) {
   while (size > 0) {
     const ssize_t count = ::write(file_.number(), text, static_cast<std::size_t>(size));
     if (count < 0 && errno != EINTR) {
-      process::fail(target_,
-                    "could not be written in full: " + std::generic_category().message(errno));
+      fail(target_, "could not be written in full: " + std::generic_category().message(errno));
     }
     const ssize_t written = std::max<ssize_t>(0, count);
     text += written;

@@ -25,7 +25,7 @@ class FileBuffer : public std::streambuf {
   void hand_over(const char* text, std::streamsize size);
 
   std::filesystem::path target_;
-  process::Descriptor file_;
+  Descriptor file_;
   std::vector<char> buffer_;
 };
 
@@ -35,10 +35,10 @@ class StagedFile : public std::ostream {
  public:
   /// @param file    is not there yet
   /// @param target  what errors name: where it will stand
-  /// @throws process::FileError  it cannot be created
+  /// @throws FileError  it cannot be created
   StagedFile(const std::filesystem::path& file, const std::filesystem::path& target);
 
-  /// Everything is handed to the system; may be called again. @throws process::FileError
+  /// Everything is handed to the system; may be called again. @throws FileError
   void close() { buffer_.close(); }
 
  private:

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <cstddef>
 
 namespace sonoglide::process {
 
@@ -11,7 +14,10 @@ inline constexpr unsigned most_threads = 1024;
 /// While it lives, work is done on at most so many threads; 0: one for each core.
 class ThreadLimit {
  public:
-  explicit ThreadLimit(unsigned threads);
+  explicit ThreadLimit(unsigned threads)
+      : limit_(tbb::global_control::max_allowed_parallelism,
+               threads > 0 ? threads : static_cast<std::size_t>(tbb::info::default_concurrency())) {
+  }
 
  private:
   tbb::global_control limit_;

@@ -45,9 +45,9 @@ WrittenFiles::WrittenFiles(const std::filesystem::path& folder) : folder_(folder
     list.read(line.data(), static_cast<std::streamsize>(line.size()));
   }
   if (line != std::string(heading) + '\n') {
-    process::fail(place,
-                  "is not a list of files that this program wrote; allowed: another "
-                  "folder, or that file out of the way");
+    fail(place,
+         "is not a list of files that this program wrote; allowed: another "
+         "folder, or that file out of the way");
   }
   while (std::getline(list, line)) {
     std::istringstream words(line);
@@ -96,7 +96,7 @@ WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 1U << 16U> part{};
   Content content{};
-  process::Checksum sum;
+  Checksum sum;
   while (stream) {
     stream.read(part.data(), part.size());
     const auto count = static_cast<std::size_t>(stream.gcount());
@@ -104,7 +104,7 @@ WrittenFiles::Content WrittenFiles::content_of(const std::filesystem::path& file
     content.bytes += count;
   }
   if (!stream.eof()) {
-    process::fail(file, "cannot be read: " + std::generic_category().message(errno));
+    fail(file, "cannot be read: " + std::generic_category().message(errno));
   }
   content.checksum = sum.value();
   return content;
@@ -116,32 +116,32 @@ ListLock::ListLock(const std::filesystem::path& folder, Kind kind)
   const bool alone = kind == Kind::alone;
   do {
     // A lock on the writers of a network's file system takes a file that is open for writing.
-    file_ = process::Descriptor(
+    file_ = Descriptor(
         open(list_.c_str(), (alone ? O_RDWR : O_RDONLY) | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
     began_ = false;
     if (file_.number() < 0 && errno == ENOENT && alone) {
-      file_ = process::Descriptor(open(list_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+      file_ = Descriptor(open(list_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));
       began_ = file_.number() >= 0;
       if (!began_ && errno == EEXIST) {
         continue;
       }
     }
-    if (file_.number() < 0 || !process::lock(file_, alone ? LOCK_EX : LOCK_SH)) {
+    if (file_.number() < 0 || !lock(file_, alone ? LOCK_EX : LOCK_SH)) {
       return;
     }
     // Who held it may have put another in its place.
-  } while (!process::stands(file_, list_));
+  } while (!stands(file_, list_));
 }
 
 ListLock::~ListLock() {
-  if (began_ && process::stands(file_, list_)) {
+  if (began_ && stands(file_, list_)) {
     unlink(list_.c_str());
   }
 }
 
 void ListLock::hold_next(const std::filesystem::path& list) {
-  next_ = process::Descriptor(open(list.c_str(), O_RDWR | O_CLOEXEC));
-  process::lock(next_, LOCK_EX);
+  next_ = Descriptor(open(list.c_str(), O_RDWR | O_CLOEXEC));
+  lock(next_, LOCK_EX);
 }
 
 }  // namespace sonoglide::process

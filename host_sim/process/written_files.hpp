@@ -36,8 +36,8 @@ class ListLock {
  private:
   std::filesystem::path list_;
   bool began_ = false;
-  process::Descriptor file_;
-  process::Descriptor next_;
+  Descriptor file_;
+  Descriptor next_;
 };
 
 /// The list of them, kept in the folder itself, each with its size and checksum: a file that
@@ -49,14 +49,14 @@ class WrittenFiles {
   static constexpr const char* file_name = ".sonoglide";
 
   /// The list of a folder, empty where it has none.
-  /// @throws process::FileError  a file of that name is no such list
+  /// @throws FileError  a file of that name is no such list
   explicit WrittenFiles(const std::filesystem::path& folder);
 
   /// Whether the file that stands there under this name is as this program has left it.
   bool has(const std::string& name) const;
 
   /// @param file  with the content that will stand in the folder under this name
-  /// @throws process::FileError  it cannot be read
+  /// @throws FileError  it cannot be read
   void add(const std::string& name, const std::filesystem::path& file);
 
   /// As it is kept.

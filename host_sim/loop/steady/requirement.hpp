@@ -92,7 +92,7 @@ enum class Obstacle {
 
 const char* name(Obstacle limit);
 
-/// What is not defined is NaN: the motion where the limit is none of none, actuator and
+/// What is not defined is NaN. There is a motion where the limit is none, actuator or
 /// velocity_at_rail.
 struct Requirement {
   double sliding_m_per_s = 0.0;

@@ -163,6 +163,21 @@ TEST(ControlDesignTest, NotesAModeThatFeedbackMayBuildUp) {
   EXPECT_EQ(design_notes(design_control(scene)).size(), 1U);
 }
 
+// Slow sliding takes a weak drive, whose vibration a friction slows that is light beside the largest.
+TEST(ControlDesignTest, TellsNoMismatchWhereFrictionSlowsAVibration) {
+  scene::Scene scene = table_1_closed_loop();
+  scene.friction.law = scene::laws::Coulomb{};
+  scene.friction.contact_stiffness_N_per_m = 0.0;
+  EXPECT_GT(design_control(scene).agreement, 0.0);
+  scene.friction.normal_force_N = 30.0 / scene.friction.coefficient;
+  scene.sensor.force_full_scale_N = 60.0;
+  scene.sliding.profile = {{0.0, 0.002}};
+  const ControlDesign slow = design_control(scene);
+  EXPECT_TRUE(slow.maps_friction);
+  EXPECT_FALSE(slow.estimates_mismatch);
+  EXPECT_EQ(slow.agreement, 0.0);
+}
+
 TEST(ControlDesignTest, NotesWhatItMayFailToFeel) {
   const auto feeling = [](double frequency) {
     scene::Scene scene = with_natural_frequency(frequency);
